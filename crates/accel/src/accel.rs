@@ -1,0 +1,96 @@
+//! A structure over primitives: what answers queries.
+
+use ombra_geometry::{Aabb, EdgeRule, Ray};
+
+use crate::search::Search;
+use crate::{
+    AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, StructureKind,
+    Traversable, TraversalRay, Visitor,
+};
+
+/// Primitives with a structure over them.
+#[derive(Clone, Debug)]
+pub struct Accel<P> {
+    primitives: P,
+    structure: AnyStructure,
+    /// Endless primitives: they have no place in any structure and are tested for every ray.
+    unbounded: Vec<u32>,
+    reach: Reach,
+    bounds: Aabb,
+}
+
+impl<P: Primitives> Accel<P> {
+    /// Builds the named structure. Primitives with an empty or NaN box are left out.
+    #[must_use]
+    pub fn build(primitives: P, kind: StructureKind) -> Self {
+        let mut bounded = Vec::with_capacity(primitives.len());
+        let mut unbounded = Vec::new();
+        let mut bounds = Aabb::EMPTY;
+        for primitive in 0..primitives.len() as u32 {
+            let own = primitives.bounds(primitive);
+            if own.is_empty() {
+                continue;
+            }
+            if own.is_finite() {
+                bounds = bounds.union(own);
+                bounded.push(Bounded {
+                    bounds: own,
+                    primitive,
+                });
+            } else {
+                unbounded.push(primitive);
+            }
+        }
+        let reach = Reach::of(&bounds);
+        let structure = kind.build(&bounded, &reach);
+        if !unbounded.is_empty() {
+            bounds = Aabb::UNBOUNDED;
+        }
+        Self {
+            primitives,
+            structure,
+            unbounded,
+            reach,
+            bounds,
+        }
+    }
+
+    /// The primitives.
+    #[must_use]
+    pub const fn primitives(&self) -> &P {
+        &self.primitives
+    }
+
+    /// Bytes of the structure alone.
+    #[must_use]
+    pub fn structure_bytes(&self) -> usize {
+        self.structure.bytes() + size_of_val(self.unbounded.as_slice())
+    }
+}
+
+impl<P: Primitives> Traversable for Accel<P> {
+    #[inline]
+    fn search<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+        &self,
+        ray: &Ray<f64>,
+        rule: EdgeRule,
+        counter: &mut C,
+        any_hit: F,
+    ) -> Option<Candidate> {
+        let ray = TraversalRay::new(ray, &self.reach)?;
+        let mut search = Search::new(&self.primitives, &ray, rule, counter, any_hit);
+        if search.leaf(&self.unbounded, Span::ALL).is_continue() {
+            // Broken off or not, what was accepted is in the search.
+            let _ = self.structure.traverse(&ray, &mut search);
+        }
+        search.best()
+    }
+
+    fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    fn bytes(&self) -> usize {
+        self.structure_bytes() + self.primitives.bytes()
+    }
+}

@@ -1,0 +1,114 @@
+//! The structures by name.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::str::FromStr;
+
+use crate::{Bounded, BruteForce, Reach, Structure, TraversalRay, Visitor};
+
+/// Every structure, with its name and a line on each.
+///
+/// One line a structure; everything else follows from it.
+macro_rules! structures {
+    ($($(#[$meta:meta])* $variant:ident($type:ty), $name:literal, $line:literal;)*) => {
+        /// Which structure to build.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
+        pub enum StructureKind {
+            $(#[doc = $line] $(#[$meta])* $variant,)*
+        }
+
+        impl StructureKind {
+            /// All of them, in the order in which they are listed.
+            pub const ALL: &[Self] = &[$(Self::$variant,)*];
+
+            /// The name that a person types.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+
+            /// What it is, in one line.
+            #[must_use]
+            pub const fn line(self) -> &'static str {
+                match self { $(Self::$variant => $line,)* }
+            }
+
+            /// Builds one.
+            #[must_use]
+            pub fn build(self, primitives: &[Bounded], reach: &Reach) -> AnyStructure {
+                match self {
+                    $(Self::$variant => {
+                        AnyStructure::$variant(<$type>::build(primitives, reach))
+                    })*
+                }
+            }
+        }
+
+        /// A structure chosen by name.
+        #[derive(Clone, Debug)]
+        #[non_exhaustive]
+        pub enum AnyStructure {
+            $(#[doc = $line] $variant($type),)*
+        }
+
+        impl AnyStructure {
+            /// Bytes held on the heap.
+            #[must_use]
+            pub fn bytes(&self) -> usize {
+                match self { $(Self::$variant(structure) => structure.bytes(),)* }
+            }
+
+            /// See [`Structure::traverse`].
+            #[inline]
+            pub fn traverse<V: Visitor>(
+                &self,
+                ray: &TraversalRay,
+                visitor: &mut V,
+            ) -> ControlFlow<()> {
+                match self { $(Self::$variant(structure) => structure.traverse(ray, visitor),)* }
+            }
+        }
+    };
+}
+
+structures! {
+    #[default]
+    BruteForce(BruteForce), "brute-force", "no structure: every primitive is tested";
+}
+
+/// A name that no structure has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownStructure(String);
+
+impl fmt::Display for UnknownStructure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<_> = StructureKind::ALL.iter().map(|kind| kind.name()).collect();
+        write!(
+            f,
+            "there is no structure \"{}\"; there are: {}",
+            self.0,
+            names.join(", ")
+        )
+    }
+}
+
+impl std::error::Error for UnknownStructure {}
+
+impl FromStr for StructureKind {
+    type Err = UnknownStructure;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::ALL
+            .iter()
+            .copied()
+            .find(|kind| kind.name().eq_ignore_ascii_case(name))
+            .ok_or_else(|| UnknownStructure(name.to_owned()))
+    }
+}
+
+impl fmt::Display for StructureKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

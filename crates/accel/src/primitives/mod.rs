@@ -1,0 +1,120 @@
+//! What a structure stands over: things with a box that a ray can be tested against.
+
+mod geometry;
+mod mesh;
+mod shapes;
+
+use std::ops::ControlFlow;
+
+use ombra_geometry::{Aabb, Crossing, EdgeRule, GeometryId, Hit, InstanceId, PrimitiveId};
+
+use crate::{Counter, TraversalRay};
+
+pub use geometry::Geometry;
+pub use mesh::Mesh;
+pub use shapes::Shapes;
+
+/// A list of primitives.
+pub trait Primitives: Send + Sync {
+    /// What is worked out once a ray.
+    type Prepared;
+
+    /// How many there are: at most 2³² − 1.
+    fn len(&self) -> usize;
+
+    /// Whether there are none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The box around one. It may be unbounded; a primitive whose box is empty or NaN is never hit.
+    fn bounds(&self, primitive: u32) -> Aabb;
+
+    /// Works out what only depends on the ray.
+    fn prepare(&self, ray: &TraversalRay, rule: EdgeRule) -> Self::Prepared;
+
+    /// Reports the crossings of the ray with one primitive, t in `[t_min, t_max]` (the ray's own
+    /// `t_max` is out of date), and heeds the answer.
+    ///
+    /// # Errors
+    /// `Break` if a report was answered with [`AnyHit::Terminate`].
+    fn crossings<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+        &self,
+        prepared: &Self::Prepared,
+        ray: &TraversalRay,
+        t_max: f64,
+        primitive: u32,
+        counter: &mut C,
+        report: &mut F,
+    ) -> ControlFlow<()>;
+
+    /// Bytes held on the heap, structures of a lower level included.
+    fn bytes(&self) -> usize;
+}
+
+/// What to make of a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AnyHit {
+    /// It counts: look only for nearer ones from here on.
+    Accept,
+    /// As if it were not there.
+    Ignore,
+    /// It counts, and it is enough: look no further.
+    Terminate,
+}
+
+/// A crossing that may become the hit: ids, and t in the precision in which it was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// Where on the ray.
+    pub t: f64,
+    /// See [`Hit::u`].
+    pub u: f32,
+    /// See [`Hit::v`].
+    pub v: f32,
+    /// Which primitive of the geometry.
+    pub primitive: PrimitiveId,
+    /// Which geometry.
+    pub geometry: GeometryId,
+    /// Which placement of the geometry.
+    pub instance: InstanceId,
+}
+
+impl Candidate {
+    /// Of a primitive on its own; instancing fills in the rest.
+    #[must_use]
+    #[inline]
+    pub fn new(crossing: Crossing, primitive: u32) -> Self {
+        Self {
+            t: crossing.t,
+            u: crossing.u,
+            v: crossing.v,
+            primitive: PrimitiveId(primitive),
+            geometry: GeometryId(0),
+            instance: InstanceId(0),
+        }
+    }
+
+    /// As the answer to a query; here `t` is rounded, once.
+    #[must_use]
+    #[inline]
+    pub fn hit(&self) -> Hit {
+        Hit {
+            t: self.t as f32,
+            u: self.u,
+            v: self.v,
+            primitive: self.primitive,
+            geometry: self.geometry,
+            instance: self.instance,
+        }
+    }
+
+    /// Whether this comes before another one: nearer or, by the rule for ties (see [`Hit`]), equally
+    /// near with smaller ids.
+    #[must_use]
+    #[inline]
+    pub fn precedes(&self, other: &Self) -> bool {
+        let ids = |c: &Self| (c.instance, c.geometry, c.primitive);
+        self.t < other.t || (self.t == other.t && ids(self) < ids(other))
+    }
+}

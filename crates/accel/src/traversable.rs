@@ -1,0 +1,77 @@
+//! The questions that a ray can ask, behind one trait.
+
+use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
+
+use crate::{AnyHit, Candidate, Counter, Statistics};
+
+/// Something that rays can be traced against: the one door to every structure.
+///
+/// All questions are one search with a different word on each hit: accept it, ignore it, stop.
+/// A ray that is not valid (NaN, no direction) hits nothing.
+pub trait Traversable: Send + Sync {
+    /// The search behind all questions: shows `any_hit` each hit that may still count, in no
+    /// promised order, each crossing at most once, and returns the nearest that it accepted.
+    fn search<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+        &self,
+        ray: &Ray<f64>,
+        rule: EdgeRule,
+        counter: &mut C,
+        any_hit: F,
+    ) -> Option<Candidate>;
+
+    /// The box around everything; unbounded if something in it is.
+    fn bounds(&self) -> Aabb;
+
+    /// Bytes held on the heap: structure and primitives.
+    fn bytes(&self) -> usize;
+
+    /// The closest hit.
+    #[inline]
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.trace(ray, |_| AnyHit::Accept)
+    }
+
+    /// Whether there is any hit.
+    #[inline]
+    fn occluded(&self, ray: &Ray) -> bool {
+        self.trace(ray, |_| AnyHit::Terminate).is_some()
+    }
+
+    /// The closest of those hits that `any_hit` accepts.
+    #[inline]
+    fn trace(&self, ray: &Ray, mut any_hit: impl FnMut(&Hit) -> AnyHit) -> Option<Hit> {
+        let any_hit = |candidate: &Candidate| any_hit(&candidate.hit());
+        self.search(&(*ray).into(), EdgeRule::Closed, &mut (), any_hit)
+            .map(|candidate| candidate.hit())
+    }
+
+    /// Every crossing once, near to far, in place of what `hits` held.
+    ///
+    /// An edge that two triangles share belongs to one of them here ([`EdgeRule::HalfOpen`]), so
+    /// that a line through a closed mesh crosses it an even number of times. A line that only
+    /// touches an edge may therefore cross nothing, although [`intersect`](Self::intersect)
+    /// reports the touch.
+    fn all_hits(&self, ray: &Ray, hits: &mut Vec<Hit>) {
+        let mut found = Vec::new();
+        self.search(&(*ray).into(), EdgeRule::HalfOpen, &mut (), |candidate| {
+            found.push(*candidate);
+            AnyHit::Ignore
+        });
+        found.sort_unstable_by(|a, b| match (a.precedes(b), b.precedes(a)) {
+            (true, _) => std::cmp::Ordering::Less,
+            (_, true) => std::cmp::Ordering::Greater,
+            _ => std::cmp::Ordering::Equal,
+        });
+        hits.clear();
+        hits.extend(found.iter().map(Candidate::hit));
+    }
+
+    /// The closest hit, and what it cost to find.
+    fn intersect_counted(&self, ray: &Ray) -> (Option<Hit>, Statistics) {
+        let mut statistics = Statistics::default();
+        let closest = self.search(&(*ray).into(), EdgeRule::Closed, &mut statistics, |_| {
+            AnyHit::Accept
+        });
+        (closest.map(|candidate| candidate.hit()), statistics)
+    }
+}
