@@ -1,7 +1,7 @@
 //! The description of a scene.
 
 use ombra_accel::Geometry;
-use ombra_geometry::{GeometryId, Object as ObjectSpace, Transform, World};
+use ombra_geometry::{GeometryId, Object as ObjectSpace, Transform, Vector3, World};
 
 use crate::{Camera, Light, Material, MaterialId, Rgb};
 
@@ -19,7 +19,7 @@ pub struct Object {
 }
 
 /// Everything there is to be seen, as a description.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// The geometries that objects place.
     pub geometries: Vec<Geometry>,
@@ -35,6 +35,24 @@ pub struct Scene {
     pub background: Rgb,
     /// The camera, if the description names one.
     pub camera: Option<Camera>,
+    /// Which way is up, for a camera and lights that have to be made up. Of any length but 0.
+    pub up: Vector3,
+}
+
+impl Default for Scene {
+    /// Nothing, in the dark.
+    fn default() -> Self {
+        Self {
+            geometries: Vec::new(),
+            materials: Vec::new(),
+            objects: Vec::new(),
+            lights: Vec::new(),
+            ambient: Rgb::BLACK,
+            background: Rgb::BLACK,
+            camera: None,
+            up: Vector3::Y,
+        }
+    }
 }
 
 /// A description that does not fit together.
