@@ -90,15 +90,28 @@ impl Scene {
         material: Material,
         world_from_object: Transform<ObjectSpace, World>,
     ) {
-        let object = Object {
-            name: name.into(),
-            geometry: GeometryId(self.geometries.len() as u32),
-            material: MaterialId(self.materials.len() as u32),
-            world_from_object,
-        };
-        self.geometries.push(geometry);
         self.materials.push(material);
-        self.objects.push(object);
+        let material = MaterialId(self.materials.len() as u32 - 1);
+        self.place(name, geometry, material, world_from_object);
+    }
+
+    /// Adds an object with a geometry of its own and one of the materials.
+    pub fn place(
+        &mut self,
+        name: impl Into<String>,
+        geometry: Geometry,
+        material: MaterialId,
+        world_from_object: Transform<ObjectSpace, World>,
+    ) {
+        let name = name.into();
+        self.geometries.push(geometry);
+        let geometry = GeometryId(self.geometries.len() as u32 - 1);
+        self.objects.push(Object {
+            name,
+            geometry,
+            material,
+            world_from_object,
+        });
     }
 
     /// Checks that every object names a geometry and a material that is there.
