@@ -4,7 +4,10 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::str::FromStr;
 
-use crate::{Bounded, BruteForce, Reach, Structure, TraversalRay, Visitor};
+use crate::{
+    Bounded, BruteForce, Grid, Grid2, KdRestart, KdRopes, KdShortStack, KdStack, Octree, Reach,
+    Structure, TraversalRay, Visitor,
+};
 
 /// Every structure, with its name and a line on each.
 ///
@@ -75,6 +78,13 @@ macro_rules! structures {
 structures! {
     #[default]
     BruteForce(BruteForce), "brute-force", "no structure: every primitive is tested";
+    Grid(Grid), "grid", "uniform grid: equal cells, walked from one to the next";
+    Grid2(Grid2), "grid2", "grid in a grid: crowded cells hold a grid of their own";
+    Octree(Octree), "octree", "octree: crowded cubes are cut into eight";
+    KdStack(KdStack), "kd-stack", "kd-tree, what is still to visit waits on a stack";
+    KdRestart(KdRestart), "kd-restart", "kd-tree, walked from the root for every leaf";
+    KdShortStack(KdShortStack), "kd-short-stack", "kd-tree, a stack of four, else from the root";
+    KdRopes(KdRopes), "kd-ropes", "kd-tree, ropes lead from leaf to leaf";
 }
 
 /// A name that no structure has.

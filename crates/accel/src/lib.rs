@@ -30,8 +30,14 @@
 
 mod accel;
 mod brute_force;
+mod cells;
+mod grid;
+mod grid2;
 mod instance;
+mod kd_tree;
 mod kind;
+mod lattice;
+mod octree;
 mod primitives;
 mod search;
 mod statistics;
@@ -41,8 +47,12 @@ mod traversal_ray;
 
 pub use accel::Accel;
 pub use brute_force::BruteForce;
+pub use grid::Grid;
+pub use grid2::Grid2;
 pub use instance::{Instance, Instances};
+pub use kd_tree::{KdRestart, KdRopes, KdShortStack, KdStack};
 pub use kind::{AnyStructure, StructureKind, UnknownStructure};
+pub use octree::Octree;
 pub use primitives::{AnyHit, Candidate, Geometry, Mesh, Primitives, Shapes};
 pub use statistics::{Counter, Statistics};
 pub use structure::{Bounded, Span, Structure, Visitor};
