@@ -76,7 +76,7 @@ impl RayProgram<Probe> for Faulty {
         _ray: &Ray,
         _payload: &mut (),
     ) -> Result<(), Exception> {
-        Err(Exception::user(2, format!("{}", "miss")))
+        Err(Exception::user(2, String::from("miss")))
     }
 }
 
