@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use ombra_accel::{
-    Accel, AnyHit, Candidate, Counter, Geometry, Instance, Instances, StructureKind, Traversable,
+    Accel, AnyHit, Candidate, Counter, Geometry, Instance, Instances, Primitives as _,
+    StructureKind, Traversable,
 };
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 
@@ -67,6 +68,15 @@ impl World {
         let object = &self.scene.objects[hit.instance.index()];
         let geometry = &self.scene.geometries[hit.geometry.index()];
         Interaction::new(ray, hit, geometry, &object.world_from_object)
+    }
+
+    /// How many primitives rays can meet, those of a geometry once for each object that places it.
+    #[must_use]
+    pub fn primitives(&self) -> usize {
+        let objects = self.scene.objects.iter();
+        objects
+            .map(|object| self.scene.geometries[object.geometry.index()].len())
+            .sum()
     }
 
     /// Bytes of the structures alone.
