@@ -62,13 +62,11 @@ mod tests {
 
     #[test]
     fn through_a_rim_it_is_entered_once() {
-        let rim = Ray::new(Point3::new(2.0, 0.0, 3.0), Vector3::new(-1.0, 0.0, -1.0));
-        for (ends, expected) in [(Ends::Capped, &[1.0, 3.0][..]), (Ends::Open, &[1.0])] {
-            let found = ts(&upright(ends), rim);
-            assert_eq!(found.len(), expected.len());
-            for (t, expected) in found.iter().zip(expected) {
-                assert!((t - expected).abs() < 1e-14, "{t}");
-            }
+        let rim = Ray::new(Point3::new(2.0, 0.0, 2.5), Vector3::new(-1.0, 0.0, -0.5));
+        let found = ts(&upright(Ends::Capped), rim);
+        assert_eq!(found.len(), 2);
+        for (t, expected) in found.iter().zip([1.0, 3.0]) {
+            assert!((t - expected).abs() < 1e-14, "{t}");
         }
     }
 
