@@ -4,7 +4,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::str::FromStr;
 
-use crate::{Bounded, BruteForce, Reach, Structure, TraversalRay, Visitor};
+use crate::bvh::{Bvh, Lbvh, Median, Sah};
+use crate::{Bih, Bounded, BruteForce, Reach, Structure, StructureAlias, TraversalRay, Visitor};
 
 /// Every structure, with its name and a line on each.
 ///
@@ -73,8 +74,12 @@ macro_rules! structures {
 }
 
 structures! {
-    #[default]
     BruteForce(BruteForce), "brute-force", "no structure: every primitive is tested";
+    Bih(Bih), "bih", "bounding interval hierarchy: two clip planes a node, built in one quick pass";
+    #[default]
+    Bvh(Bvh<Sah>), "bvh", "boxes within boxes, cut where the surface area heuristic says";
+    BvhMedian(Bvh<Median>), "bvh-median", "boxes within boxes, each list halved along the widest axis";
+    BvhLbvh(Bvh<Lbvh>), "bvh-lbvh", "boxes within boxes, cut along a Morton curve: the quickest to build";
 }
 
 /// A name that no structure has.
@@ -103,6 +108,7 @@ impl FromStr for StructureKind {
             .iter()
             .copied()
             .find(|kind| kind.name().eq_ignore_ascii_case(name))
+            .or_else(|| StructureAlias::of(name).map(|alias| alias.kind))
             .ok_or_else(|| UnknownStructure(name.to_owned()))
     }
 }

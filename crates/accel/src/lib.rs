@@ -28,10 +28,15 @@
 //! on that rounding; and every structure is built or traversed with boxes padded by more. So what
 //! counts is found, whichever way one looks. The bound is in [`TraversalRay`], the only place.
 
+pub mod bvh;
+
 mod accel;
+mod alias;
+mod bih;
 mod brute_force;
 mod instance;
 mod kind;
+mod partition;
 mod primitives;
 mod search;
 mod statistics;
@@ -40,6 +45,8 @@ mod traversable;
 mod traversal_ray;
 
 pub use accel::Accel;
+pub use alias::StructureAlias;
+pub use bih::Bih;
 pub use brute_force::BruteForce;
 pub use instance::{Instance, Instances};
 pub use kind::{AnyStructure, StructureKind, UnknownStructure};

@@ -9,9 +9,11 @@
 //!
 //! Where this departs from the paper:
 //! 1. The winding is kept when axes are swapped, but nothing is culled by it.
-//! 2. Where an edge function is 0 in single precision all three are computed again in double, as in
-//!    the paper; the products of two singles are then exact, so the sign is the true one. Rounding
-//!    is monotone, so a sign that is not 0 was the true one already.
+//! 2. What is not a miss in single precision is decided in double, as in the paper: the products of
+//!    two singles are then exact, so the signs are the true ones. Rounding is monotone, so a sign
+//!    that is not 0 was the true one before, and no hit has been turned away. The paper does so
+//!    only where an edge function is 0; here every hit gets weights without cancellation, so that
+//!    the t of a sliver, or of a triangle seen from its edge, is as good as any other.
 //! 3. Under [`EdgeRule::HalfOpen`] an origin exactly on an edge belongs to the triangle for which
 //!    the edge is a left or a bottom one: the rule of rasterizers.
 //! 4. `t` is not compared in scaled form: one division a hit is not what costs.
@@ -44,36 +46,34 @@ impl<T: Real> TriangleKernel<T> for Watertight<T> {
     #[inline]
     fn crossing(&self, ray: &Ray<T>, corners: [Point3<T>; 3], rule: EdgeRule) -> Option<Crossing> {
         let [a, b, c] = corners.map(|corner| self.sheared(corner - ray.origin));
-        let mut u = edge(c, b);
-        let mut v = edge(a, c);
-        let mut w = edge(b, a);
-        let zero = T::zero();
-        if u == zero || v == zero || w == zero {
-            [u, v, w] = [edge_wide(c, b), edge_wide(a, c), edge_wide(b, a)].map(T::of);
+        if on_both_sides([edge(c, b), edge(a, c), edge(b, a)]) {
+            return None;
         }
-        if (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero) {
+        let [u, v, w] = [edge_wide(c, b), edge_wide(a, c), edge_wide(b, a)];
+        if on_both_sides([u, v, w]) {
             return None;
         }
         let det = u + v + w;
         // Not `== 0`: a NaN corner ends here too.
-        if !(det.abs() > zero) {
+        if !(det.abs() > 0.0) {
             return None;
         }
         if rule == EdgeRule::HalfOpen {
-            let flip = det < zero;
-            let owned = |side: T, from, to| side != zero || owns(from, to, flip);
+            let flip = det < 0.0;
+            let owned = |side: f64, from, to| side != 0.0 || owns(from, to, flip);
             if !(owned(u, b, c) && owned(v, c, a) && owned(w, a, b)) {
                 return None;
             }
         }
-        let t = (u * a.z + v * b.z + w * c.z) * self.shear.z / det;
+        let depth = (u * a.z.wide() + v * b.z.wide() + w * c.z.wide()) / det;
+        let t = T::of(depth * self.shear.z.wide());
         if !(ray.t_min <= t && t <= ray.t_max) {
             return None;
         }
         Some(Crossing {
             t: t.wide(),
-            u: (v / det).wide() as f32,
-            v: (w / det).wide() as f32,
+            u: (v / det) as f32,
+            v: (w / det) as f32,
         })
     }
 }
@@ -90,6 +90,13 @@ impl<T: Real> Watertight<T> {
             z,
         )
     }
+}
+
+/// Whether the origin is to the left of one edge and to the right of another.
+#[inline]
+fn on_both_sides<T: Real>([u, v, w]: [T; 3]) -> bool {
+    let zero = T::zero();
+    (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero)
 }
 
 /// Twice the signed area of the triangle (origin, q, p): which side of the edge the ray is on.
