@@ -297,3 +297,47 @@ fn cut_by_number(items: &mut [Bounded], cell: Aabb) -> Cut {
     let cells = [cell; 2];
     Cut { axis, at, cells }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ombra_geometry::Point3;
+
+    fn built(centres: impl IntoIterator<Item = [f32; 3]>) -> (Bih, usize) {
+        let bounded = |(primitive, centre): (u32, [f32; 3])| Bounded {
+            bounds: Aabb::around([Point3::from(centre)]),
+            primitive,
+        };
+        let primitives: Vec<_> = (0..).zip(centres).map(bounded).collect();
+        let bih = Bih::build(&primitives, &Reach::of(&around(&primitives)));
+        (bih, primitives.len())
+    }
+
+    /// Leaves in the order of nodes hold the list from front to back.
+    fn assert_each_primitive_once((bih, count): (Bih, usize)) {
+        let mut end = 0;
+        for node in &bih.nodes {
+            if let &Node::Leaf { first, count } = node {
+                assert_eq!(first, end);
+                end += count;
+            }
+        }
+        assert_eq!(end as usize, count);
+        let mut primitives = bih.primitives;
+        primitives.sort_unstable();
+        assert!(primitives.into_iter().eq(0..count as u32));
+    }
+
+    #[test]
+    fn every_primitive_is_in_one_leaf_whatever_the_list() {
+        assert_each_primitive_once(built([]));
+        assert_each_primitive_once(built([[1.0, 2.0, 3.0]]));
+        assert_each_primitive_once(built(vec![[1e7; 3]; 5000]));
+        assert_each_primitive_once(built((0..5000).map(|i| [i as f32, 0.0, 0.0])));
+        assert_each_primitive_once(built((-120..120).map(|i| [2.0_f32.powi(i); 3])));
+        assert_each_primitive_once(built((0..100).map(|i| [(i as f32 - 50.0) * 6e36; 3])));
+        assert_each_primitive_once(built((0..100).map(|i| [f32::from_bits(i), 0.0, 0.0])));
+        let grain = (0..1000).map(|i| [f32::from_bits(1e7_f32.to_bits() + i % 3), 0.0, 1.0]);
+        assert_each_primitive_once(built(grain));
+    }
+}
