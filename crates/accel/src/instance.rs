@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ombra_geometry::{Aabb, EdgeRule, GeometryId, InstanceId, Object, Transform, World};
 
-use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Traversable, TraversalRay};
+use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Traversable as _, TraversalRay};
 
 /// One placement of a geometry.
 #[derive(Clone, Debug)]
@@ -105,7 +105,7 @@ impl<P: Primitives> Primitives for Instances<P> {
         };
         local.t_max = t_max;
         let mut terminated = ControlFlow::Continue(());
-        self.geometries[geometry.index()].search(&local, *rule, counter, |candidate| {
+        let mut place = |candidate: &Candidate| {
             let placed = Candidate {
                 geometry,
                 instance: InstanceId(primitive),
@@ -116,7 +116,8 @@ impl<P: Primitives> Primitives for Instances<P> {
                 terminated = ControlFlow::Break(());
             }
             answer
-        });
+        };
+        self.geometries[geometry.index()].search_with(&local, *rule, counter, &mut place);
         terminated
     }
 

@@ -33,13 +33,13 @@ impl Answers {
         let mut all_hits = Vec::new();
         accel.all_hits(ray, &mut all_hits);
         let mut seen = Vec::new();
-        let ignored = accel.trace(ray, |hit| {
+        let ignored = accel.trace(ray, &mut |hit| {
             seen.push(bits(hit));
             AnyHit::Ignore
         });
         assert_eq!(ignored, None, "every hit was ignored");
         seen.sort_unstable();
-        let odd = accel.trace(ray, |hit| match hit.primitive.0 % 2 {
+        let odd = accel.trace(ray, &mut |hit| match hit.primitive.0 % 2 {
             0 => AnyHit::Ignore,
             _ => AnyHit::Accept,
         });
