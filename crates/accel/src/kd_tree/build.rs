@@ -110,9 +110,7 @@ impl Faces {
         let (across, plane) = (split.axis, split.plane);
         let [x, y, z] = on_each_axis(self.count(), |axis| {
             let events = &self.0[axis as usize];
-            let (mut below, mut above) = (Vec::new(), Vec::new());
-            below.reserve(events.len() / 2);
-            above.reserve(events.len() / 2);
+            let [mut below, mut above] = split.counts.map(|count| Vec::with_capacity(2 * count));
             for event in events {
                 let bounds = &boxes[event.primitive as usize];
                 if bounds.min[across] < plane {
