@@ -48,42 +48,36 @@ pub(super) fn best_across(
     // The probability of a half of some width is `ends + sides · width`.
     let (ends, sides) = (b * c / area, (b + c) / area);
 
+    // Whatever begins at `min` or before lies below every plane, and nothing ends there.
+    let mut begun = events.partition_point(|event| event.position <= min);
+    let mut ended = 0;
     let mut best: Option<Split> = None;
-    let (mut begun, mut ended) = (0, 0);
-    let mut rest = events;
-    while let Some(first) = rest.first() {
-        let plane = first.position;
-        let mut here = [0, 0];
-        while let Some(event) = rest.first()
-            && event.position == plane
-        {
-            here[usize::from(event.is_end())] += 1;
-            rest = &rest[1..];
-        }
-        ended += here[1];
+    // Of events at the same place, ends come first: the last of the ends, or the first of the
+    // beginnings, sees the true counts, and the others too many. So they need not be grouped.
+    for event in &events[begun..] {
+        let plane = event.position;
         if plane >= max {
             break;
         }
-        if min < plane {
-            let (below, above) = (begun, count - ended);
-            let bonus = if below == 0 || above == 0 {
-                EMPTY_SPACE
-            } else {
-                1.0
-            };
-            let tests = (ends + sides * (plane - min)) * below as f64
-                + (ends + sides * (max - plane)) * above as f64;
-            let cost = STEP + bonus * tests;
-            if best.is_none_or(|best| cost < best.cost) {
-                best = Some(Split {
-                    axis,
-                    plane,
-                    counts: [below, above],
-                    cost,
-                });
-            }
+        ended += usize::from(event.is_end());
+        let (below, above) = (begun, count - ended);
+        let bonus = if below == 0 || above == 0 {
+            EMPTY_SPACE
+        } else {
+            1.0
+        };
+        let tests = (ends + sides * (plane - min)) * below as f64
+            + (ends + sides * (max - plane)) * above as f64;
+        let cost = STEP + bonus * tests;
+        if best.is_none_or(|best| cost < best.cost) {
+            best = Some(Split {
+                axis,
+                plane,
+                counts: [below, above],
+                cost,
+            });
         }
-        begun += here[0];
+        begun += usize::from(!event.is_end());
     }
     best
 }
