@@ -1,7 +1,7 @@
 //! What a program sees of the launch around it.
 
-use ombra_accel::Traversable;
-use ombra_geometry::Ray;
+use ombra_accel::{Candidate, Counter, Traversable};
+use ombra_geometry::{EdgeRule, Ray};
 
 use crate::{Exception, Pipeline, RayProgram, RayType};
 
@@ -73,6 +73,23 @@ impl<'a, P: Pipeline> Context<'a, P> {
     where
         P: RayProgram<R>,
     {
+        self.trace_counted::<R>(ray, payload, &mut ())
+    }
+
+    /// The same, counting the steps of the traversal.
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace).
+    #[inline]
+    pub fn trace_counted<R: RayType>(
+        &mut self,
+        ray: &Ray,
+        payload: &mut R::Payload,
+        counter: &mut impl Counter,
+    ) -> Result<(), Exception>
+    where
+        P: RayProgram<R>,
+    {
         let pipeline = self.pipeline;
         let limit = pipeline.max_trace_depth();
         if self.depth >= limit {
@@ -88,9 +105,11 @@ impl<'a, P: Pipeline> Context<'a, P> {
             });
         }
         self.rays += 1;
+        let any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);
         let hit = pipeline
             .world()
-            .trace(ray, |hit| pipeline.any_hit(ray, hit, payload));
+            .search(&(*ray).into(), EdgeRule::Closed, counter, any_hit)
+            .map(|candidate| candidate.hit());
         self.depth += 1;
         let result = match &hit {
             Some(hit) => pipeline.closest_hit(self, ray, hit, payload),

@@ -106,7 +106,9 @@ impl Camera {
         let away = (front + right * 0.55 + up * 0.4)
             .normalized()
             .unwrap_or(front);
-        let radius = (bounds.extent().length() * 0.5).max(f32::MIN_POSITIVE);
+        // A single point is looked at from a distance that its coordinates can express.
+        let least = bounds.centre().to_vector().max_norm() * 1e-4;
+        let radius = (bounds.extent().length() * 0.5).max(least).max(1e-30);
         let half = (fov * 0.5).tan().min((fov * 0.5).tan() * aspect).atan();
         let centre = bounds.centre();
         let position = centre + away * (radius / half.sin());
