@@ -98,12 +98,6 @@ impl<'a, P: Pipeline> Context<'a, P> {
         if self.stack_used() > STACK_LIMIT {
             return Err(Exception::StackOverflow { depth: self.depth });
         }
-        if !ray.is_valid() {
-            return Err(Exception::InvalidRay {
-                ray_type: R::NAME,
-                ray: *ray,
-            });
-        }
         self.rays += 1;
         let mut any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);
         let hit = pipeline
@@ -113,7 +107,12 @@ impl<'a, P: Pipeline> Context<'a, P> {
         self.depth += 1;
         let result = match &hit {
             Some(hit) => pipeline.closest_hit(self, ray, hit, payload),
-            None => pipeline.miss(self, ray, payload),
+            None if ray.is_valid() => pipeline.miss(self, ray, payload),
+            // A ray that is not valid hits nothing, so it is enough to look at those that miss.
+            None => Err(Exception::InvalidRay {
+                ray_type: R::NAME,
+                ray: *ray,
+            }),
         };
         self.depth -= 1;
         result
