@@ -5,6 +5,10 @@ use ombra_geometry::{EdgeRule, Ray};
 
 use crate::{Exception, Pipeline, RayProgram, RayType};
 
+/// How much of a thread's stack nested traces may take, in bytes: half of what a thread of Rust has
+/// unless it is told otherwise, so that whatever one trace needs still fits beyond.
+const STACK_LIMIT: usize = 1 << 20;
+
 /// The launch as one launch index sees it: its place in it, and the way to trace rays.
 #[derive(Debug)]
 pub struct Context<'a, P: Pipeline> {
@@ -58,7 +62,8 @@ impl<'a, P: Pipeline> Context<'a, P> {
     /// is called.
     ///
     /// # Errors
-    /// When the ray is not valid, when traces are nested too deep, and what the programs raise.
+    /// When the ray is not valid, when traces are nested too deep for the pipeline or for the stack,
+    /// and what the programs raise.
     #[inline]
     pub fn trace<R: RayType>(
         &mut self,
@@ -90,6 +95,9 @@ impl<'a, P: Pipeline> Context<'a, P> {
         if self.depth >= limit {
             return Err(Exception::DepthExceeded { limit });
         }
+        if self.stack_used() > STACK_LIMIT {
+            return Err(Exception::StackOverflow { depth: self.depth });
+        }
         if !ray.is_valid() {
             return Err(Exception::InvalidRay {
                 ray_type: R::NAME,
@@ -109,6 +117,14 @@ impl<'a, P: Pipeline> Context<'a, P> {
         };
         self.depth -= 1;
         result
+    }
+
+    /// How far the stack has grown since ray generation began. This context lies where it began.
+    #[inline]
+    fn stack_used(&self) -> usize {
+        let here = 0_u8;
+        let address = std::ptr::from_ref(&here).addr();
+        std::ptr::from_ref(self).addr().abs_diff(address)
     }
 
     /// An element of a buffer, or the exception that there is none.
