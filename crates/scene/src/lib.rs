@@ -1,1 +1,24 @@
-//! TODO
+//! What is there to be seen: cameras, materials, textures, lights, and objects that have a geometry
+//! and a place.
+//!
+//! A [`Scene`] is a description. [`World::build`] puts an acceleration structure over it; a hit in
+//! that world becomes an [`Interaction`] once, in a closest-hit program.
+
+pub mod camera;
+pub mod light;
+
+mod colour;
+mod interaction;
+mod material;
+mod scene;
+mod texture;
+mod world;
+
+pub use camera::Camera;
+pub use colour::Rgb;
+pub use interaction::Interaction;
+pub use light::Light;
+pub use material::{Material, MaterialId};
+pub use scene::{Object, Scene, SceneError};
+pub use texture::{Image, Texture};
+pub use world::World;

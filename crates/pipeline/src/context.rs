@@ -1,0 +1,106 @@
+//! What a program sees of the launch around it.
+
+use ombra_accel::Traversable;
+use ombra_geometry::Ray;
+
+use crate::{Exception, Pipeline, RayProgram, RayType};
+
+/// The launch as one launch index sees it: its place in it, and the way to trace rays.
+#[derive(Debug)]
+pub struct Context<'a, P: Pipeline> {
+    pipeline: &'a P,
+    index: [u32; 3],
+    size: [u32; 3],
+    depth: u32,
+    rays: u64,
+}
+
+impl<'a, P: Pipeline> Context<'a, P> {
+    pub(crate) fn new(pipeline: &'a P, index: [u32; 3], size: [u32; 3]) -> Self {
+        Self {
+            pipeline,
+            index,
+            size,
+            depth: 0,
+            rays: 0,
+        }
+    }
+
+    /// Which element of the launch this is.
+    #[must_use]
+    #[inline]
+    pub const fn launch_index(&self) -> [u32; 3] {
+        self.index
+    }
+
+    /// How large the launch is; dimensions that are not used are 1.
+    #[must_use]
+    #[inline]
+    pub const fn launch_size(&self) -> [u32; 3] {
+        self.size
+    }
+
+    /// How deep traces are nested here: 0 in ray generation, 1 in a hit of a camera ray.
+    #[must_use]
+    #[inline]
+    pub const fn depth(&self) -> u32 {
+        self.depth
+    }
+
+    /// How many rays this launch index has traced so far.
+    #[must_use]
+    #[inline]
+    pub const fn rays(&self) -> u64 {
+        self.rays
+    }
+
+    /// Traces a ray: its any-hit program is asked of hits, then its closest-hit or its miss program
+    /// is called.
+    ///
+    /// # Errors
+    /// When the ray is not valid, when traces are nested too deep, and what the programs raise.
+    #[inline]
+    pub fn trace<R: RayType>(
+        &mut self,
+        ray: &Ray,
+        payload: &mut R::Payload,
+    ) -> Result<(), Exception>
+    where
+        P: RayProgram<R>,
+    {
+        let pipeline = self.pipeline;
+        let limit = pipeline.max_trace_depth();
+        if self.depth >= limit {
+            return Err(Exception::DepthExceeded { limit });
+        }
+        if !ray.is_valid() {
+            return Err(Exception::InvalidRay {
+                ray_type: R::NAME,
+                ray: *ray,
+            });
+        }
+        self.rays += 1;
+        let hit = pipeline
+            .world()
+            .trace(ray, |hit| pipeline.any_hit(ray, hit, payload));
+        self.depth += 1;
+        let result = match &hit {
+            Some(hit) => pipeline.closest_hit(self, ray, hit, payload),
+            None => pipeline.miss(self, ray, payload),
+        };
+        self.depth -= 1;
+        result
+    }
+
+    /// An element of a buffer, or the exception that there is none.
+    ///
+    /// # Errors
+    /// When the index is out of range.
+    #[inline]
+    pub fn element<'b, T>(&self, buffer: &'b [T], index: usize) -> Result<&'b T, Exception> {
+        buffer.get(index).ok_or(Exception::IndexOutOfRange {
+            index,
+            length: buffer.len(),
+        })
+    }
+}

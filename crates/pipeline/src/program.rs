@@ -1,0 +1,102 @@
+//! The programs that a user writes, as traits.
+
+use ombra_accel::Traversable;
+use ombra_geometry::{Hit, Ray};
+
+use crate::{AnyHit, Context, Exception, LaunchException};
+
+/// A kind of ray: radiance, shadow, whatever a program needs. An uninhabited type does for one.
+pub trait RayType {
+    /// What a ray of this type carries along, written by its programs, read by whoever traced it.
+    type Payload;
+
+    /// For messages.
+    const NAME: &'static str;
+}
+
+/// What all programs of one pipeline share: their data, and what rays are traced against.
+pub trait Pipeline: Sync + Sized {
+    /// What rays are traced against.
+    type World: Traversable;
+
+    /// What rays are traced against.
+    fn world(&self) -> &Self::World;
+
+    /// How deep [`Context::trace`] may be nested: 1 allows rays from ray generation only. One more
+    /// is [`Exception::DepthExceeded`].
+    fn max_trace_depth(&self) -> u32 {
+        32
+    }
+}
+
+/// The programs of one ray type. Each has a default that does nothing.
+pub trait RayProgram<R: RayType>: Pipeline {
+    /// Asked of each hit that may still count, in no promised order, each crossing at most once.
+    #[inline]
+    fn any_hit(&self, ray: &Ray, hit: &Hit, payload: &mut R::Payload) -> AnyHit {
+        let _ = (ray, hit, payload);
+        AnyHit::Accept
+    }
+
+    /// Called with the nearest hit that was accepted.
+    ///
+    /// # Errors
+    /// Whatever the program finds exceptional; it ends this launch index.
+    #[inline]
+    fn closest_hit(
+        &self,
+        cx: &mut Context<'_, Self>,
+        ray: &Ray,
+        hit: &Hit,
+        payload: &mut R::Payload,
+    ) -> Result<(), Exception> {
+        let _ = (cx, ray, hit, payload);
+        Ok(())
+    }
+
+    /// Called when no hit was accepted.
+    ///
+    /// # Errors
+    /// Whatever the program finds exceptional; it ends this launch index.
+    #[inline]
+    fn miss(
+        &self,
+        cx: &mut Context<'_, Self>,
+        ray: &Ray,
+        payload: &mut R::Payload,
+    ) -> Result<(), Exception> {
+        let _ = (cx, ray, payload);
+        Ok(())
+    }
+}
+
+/// Where a launch begins, once for every launch index.
+pub trait RayGeneration: Pipeline {
+    /// One element of the output buffer.
+    type Output: Send;
+
+    /// Works on the one element of the output buffer that belongs to this launch index. What it
+    /// held before is kept, so that a program can add to it.
+    ///
+    /// # Errors
+    /// Whatever the program finds exceptional; see [`exception`](Self::exception).
+    fn generate(
+        &self,
+        cx: &mut Context<'_, Self>,
+        output: &mut Self::Output,
+    ) -> Result<(), Exception>;
+
+    /// The exception program: may write something else into the element, and says whether the
+    /// launch is still good. By default it is not: the launch ends with that error.
+    ///
+    /// # Errors
+    /// The exception, to make the launch fail with it.
+    fn exception(
+        &self,
+        exception: LaunchException,
+        output: &mut Self::Output,
+    ) -> Result<(), LaunchException> {
+        let _ = output;
+        Err(exception)
+    }
+}

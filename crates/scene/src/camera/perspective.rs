@@ -1,0 +1,48 @@
+//! The lecture's camera.
+
+use ombra_geometry::{Angle, Point3, Vector3};
+
+/// A pinhole camera, by the lecture's formula: with (p_x, p_y) in `[0, 1]²` from the upper left
+/// corner of the picture, the ray goes through
+///
+/// ((2 p_x − 1) · aspect · tan(fov/2), (1 − 2 p_y) · tan(fov/2), −1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Perspective {
+    /// The angle between the top and the bottom of the picture, above 0° and below 180°.
+    pub fov: Angle,
+}
+
+impl Perspective {
+    #[inline]
+    pub(super) fn local_ray(&self, aspect: f32, [px, py]: [f32; 2]) -> (Point3, Vector3) {
+        (Point3::ORIGIN, image_point(self.fov, aspect, [px, py]))
+    }
+}
+
+/// Where the ray of a place in the picture meets the plane z = −1.
+#[inline]
+pub(super) fn image_point(fov: Angle, aspect: f32, [px, py]: [f32; 2]) -> Vector3 {
+    let half = (fov * 0.5).tan();
+    Vector3::new(
+        (2.0 * px - 1.0) * aspect * half,
+        (1.0 - 2.0 * py) * half,
+        -1.0,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_corners_are_where_the_lecture_has_them() {
+        let camera = Perspective {
+            fov: Angle::from_degrees(90.0),
+        };
+        let at = |screen| camera.local_ray(2.0, screen).1;
+        assert_eq!(at([0.5, 0.5]), -Vector3::Z);
+        let close = |a: Vector3, b: Vector3| (a - b).length() < 1e-6;
+        assert!(close(at([0.0, 0.0]), Vector3::new(-2.0, 1.0, -1.0)));
+        assert!(close(at([1.0, 1.0]), Vector3::new(2.0, -1.0, -1.0)));
+    }
+}
