@@ -301,8 +301,8 @@ impl fmt::Display for FormatError {
 
 impl std::error::Error for FormatError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        // The fault's text is part of this one's; only what lies behind it is news.
-        self.0.fault.source()
+        // The text of what lies behind is part of this one's: a chain would say it twice.
+        None
     }
 }
 

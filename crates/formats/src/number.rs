@@ -57,9 +57,7 @@ pub(crate) fn whole(word: &[u8], what: &'static str) -> Result<i64, Fault> {
         let found = quoted(word);
         return Err(Fault::NotANumber { what, found });
     }
-    let size = digits
-        .iter()
-        .fold(0, |n, d| n * 10 + i64::from(d - b'0'));
+    let size = digits.iter().fold(0, |n, d| n * 10 + i64::from(d - b'0'));
     Ok(if negative { -size } else { size })
 }
 
@@ -111,7 +109,10 @@ mod tests {
     #[test]
     fn whole_numbers_do_not_overflow() {
         assert_eq!(whole(b"-50", "x").unwrap(), -50);
-        assert_eq!(whole(b"999999999999999999", "x").unwrap(), 999_999_999_999_999_999);
+        assert_eq!(
+            whole(b"999999999999999999", "x").unwrap(),
+            999_999_999_999_999_999
+        );
         for bad in ["9999999999999999999", "", "-", "1.0", "1e3"] {
             assert!(whole(bad.as_bytes(), "x").is_err(), "{bad}");
         }
