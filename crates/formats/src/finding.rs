@@ -36,6 +36,11 @@ pub enum Finding {
         /// How many triangles.
         count: u64,
     },
+    /// Vertices that no triangle uses were left out.
+    UnusedVertices {
+        /// How many.
+        count: u64,
+    },
     /// There are vertices, but no triangle.
     NoTriangles,
     /// A keyword, property or element that this reader does not use.
@@ -105,6 +110,11 @@ impl fmt::Display for Finding {
                 "{count} {} without normals among others that have them: shown flat",
                 plural("triangle", *count)
             ),
+            Self::UnusedVertices { count } => write!(
+                f,
+                "{count} {} in no triangle ignored",
+                plural_vertex(*count)
+            ),
             Self::NoTriangles => write!(f, "no triangle; nothing of it can be seen"),
             Self::Unused {
                 what,
@@ -146,4 +156,8 @@ impl fmt::Display for Finding {
             ),
         }
     }
+}
+
+const fn plural_vertex(count: u64) -> &'static str {
+    if count == 1 { "vertex" } else { "vertices" }
 }

@@ -104,11 +104,6 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// How many bytes have been handed out.
-    pub(crate) fn position(&self) -> u64 {
-        self.consumed
-    }
-
     /// The place of the next byte.
     pub(crate) fn place(&self) -> Place {
         Place::Byte(self.consumed)
@@ -216,40 +211,40 @@ impl<'a> Source<'a> {
     fn line_range(&mut self) -> Result<Option<Range<usize>>, FormatError> {
         let mut searched = 0;
         loop {
-            let end = self.line_end(searched);
-            let unread = &self.buffer[self.start..self.end];
-            let found = unread[searched..].iter().position(|&b| b == end);
-            if let Some(at) = found {
-                let length = searched + at;
-                return Ok(Some(self.take_line(length, length + 1)));
+            if let Some(end) = self.line_end() {
+                let unread = &self.buffer[self.start + searched..self.end];
+                if let Some(at) = unread.iter().position(|&b| b == end) {
+                    let length = searched + at;
+                    return Ok(Some(self.take_line(length, length + 1)));
+                }
+                searched += unread.len();
             }
-            searched = unread.len();
-            if searched > self.limits.line_bytes {
+            let held = self.end - self.start;
+            if held > self.limits.line_bytes {
                 self.line += 1;
                 return Err(self.line_too_long());
             }
             if self.at_end {
-                return Ok((searched > 0).then(|| self.take_line(searched, searched)));
+                return Ok((held > 0).then(|| self.take_line(held, held)));
             }
             // Growing by half and more keeps the search linear in the line's length.
-            self.fill(searched + searched / 2 + 1)?;
+            self.fill(held + held / 2 + 1)?;
         }
     }
 
-    /// Which byte ends the lines: decided once, by the first end that is seen.
-    fn line_end(&mut self, searched: usize) -> u8 {
-        let unread = &self.buffer[self.start..self.end];
-        let first = || unread[searched..].iter().position(|b| b"\r\n".contains(b));
-        *self.line_end.get_or_insert_with(|| match first() {
-            Some(at) if unread[searched + at] == b'\r' => {
-                if unread.get(searched + at + 1) == Some(&b'\n') {
-                    b'\n'
-                } else {
-                    b'\r'
-                }
-            }
-            _ => b'\n',
-        })
+    /// Which byte ends the lines: decided once, by the first end that is seen. `None` while there
+    /// is none, or only a CR that an LF may follow.
+    fn line_end(&mut self) -> Option<u8> {
+        if self.line_end.is_none() {
+            let unread = &self.buffer[self.start..self.end];
+            let at = unread.iter().position(|b| b"\r\n".contains(b))?;
+            self.line_end = match (unread[at], unread.get(at + 1)) {
+                (b'\r', None) if !self.at_end => None,
+                (b'\r', next) if next != Some(&b'\n') => Some(b'\r'),
+                _ => Some(b'\n'),
+            };
+        }
+        self.line_end
     }
 
     fn take_line(&mut self, length: usize, with_end: usize) -> Range<usize> {

@@ -49,7 +49,9 @@ pub(super) fn write(
             ("seconds", Some(seconds)) => AttributeValue::F64(seconds),
             _ => AttributeValue::Text(Text::from(value.as_str())),
         };
-        picture.attributes.other.insert(Text::from(name), value);
+        // Names without a prefix are the standard's own.
+        let name = Text::from(format!("ombra.{name}").as_str());
+        picture.attributes.other.insert(name, value);
     }
     let mut bytes = Vec::new();
     (picture.write().non_parallel())

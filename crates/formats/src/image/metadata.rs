@@ -3,7 +3,8 @@
 /// What is written beside the pixels, as far as it is known.
 ///
 /// PNG files hold it as text chunks, EXR files as attributes, PPM files as comments; PFM files have
-/// no place for it. The names are those of [`entries`](Self::entries).
+/// no place for it. The names are those of [`entries`](Self::entries), in EXR files with "ombra."
+/// before them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metadata {
     /// The command that made it.

@@ -1,7 +1,7 @@
 //! Writing a picture so that no half-written file is ever seen.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::{ImageBuffer, ImageFormat, Metadata, exr, pfm, png, ppm};
@@ -73,8 +73,3 @@ fn readable_by_others<'a, 'b>(
 ) -> &'a mut tempfile::Builder<'b, 'static> {
     builder
 }
-
-/// What the writers write to.
-pub(super) trait Output: Write + Seek {}
-
-impl<T: Write + Seek> Output for T {}

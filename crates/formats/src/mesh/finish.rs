@@ -19,12 +19,14 @@ pub(super) struct Raw {
 pub(super) struct Mended {
     pub(super) degenerate: u64,
     pub(super) zero_normals: u64,
+    pub(super) unused_vertices: u64,
 }
 
 impl Mended {
     pub(super) fn add(&mut self, other: Self) {
         self.degenerate += other.degenerate;
         self.zero_normals += other.zero_normals;
+        self.unused_vertices += other.unused_vertices;
     }
 
     pub(super) fn report(self, findings: &mut Vec<Finding>) {
@@ -36,19 +38,30 @@ impl Mended {
             let count = self.zero_normals;
             findings.push(Finding::ZeroNormals { count });
         }
+        if self.unused_vertices > 0 {
+            let count = self.unused_vertices;
+            findings.push(Finding::UnusedVertices { count });
+        }
     }
 }
 
-/// The mesh without its triangles of area zero, and with normals of length 1.
+/// The mesh without its triangles of area zero and the vertices that no other triangle uses, and
+/// with normals of length 1.
 pub(super) fn finish(mut raw: Raw) -> Result<(TriangleMesh, Mended), FormatError> {
     let whole = raw.triangles.len();
+    let unused = if whole > 0 { drop_unused(&mut raw) } else { 0 };
     let positions = &raw.positions;
     raw.triangles
         .retain(|t| area_normal(positions, *t).is_some());
     let mut mended = Mended {
         degenerate: (whole - raw.triangles.len()) as u64,
         zero_normals: 0,
+        unused_vertices: unused,
     };
+    if mended.degenerate > 0 {
+        // What only these used is part of the same fault.
+        drop_unused(&mut raw);
+    }
     if let Some(normals) = &mut raw.normals {
         mended.zero_normals = unit_normals(normals, &raw.positions, &raw.triangles);
     }
@@ -62,6 +75,39 @@ pub(super) fn finish(mut raw: Raw) -> Result<(TriangleMesh, Mended), FormatError
     Ok((mesh, mended))
 }
 
+/// Leaves out the vertices that no triangle uses, the others keeping their order. Returns how many
+/// there were.
+fn drop_unused(raw: &mut Raw) -> u64 {
+    let mut used = vec![false; raw.positions.len()];
+    for &corner in raw.triangles.iter().flatten() {
+        used[corner as usize] = true;
+    }
+    let unused = used.iter().filter(|used| !**used).count();
+    if unused == 0 {
+        return 0;
+    }
+    let mut next = 0;
+    let places: Vec<u32> = (used.iter())
+        .map(|&used| {
+            let place = next;
+            next += u32::from(used);
+            place
+        })
+        .collect();
+    for corner in raw.triangles.iter_mut().flatten() {
+        *corner = places[*corner as usize];
+    }
+    keep(&mut raw.positions, &used);
+    raw.normals.iter_mut().for_each(|n| keep(n, &used));
+    raw.uvs.iter_mut().for_each(|uvs| keep(uvs, &used));
+    unused as u64
+}
+
+fn keep<T>(values: &mut Vec<T>, used: &[bool]) {
+    let mut used = used.iter();
+    values.retain(|_| used.next() == Some(&true));
+}
+
 /// The normal of a triangle with the length of twice its area; `None` if that is zero.
 ///
 /// In double precision, differences of single-precision coordinates of like size are exact and so
@@ -73,7 +119,7 @@ pub(super) fn area_normal(positions: &[Point3], triangle: [u32; 3]) -> Option<Ve
 }
 
 /// Makes normals as long as 1, and those that have no direction equal to the normal of a triangle
-/// that uses them (of any direction where no triangle does). Returns how many of the latter are used.
+/// that uses them. Returns how many of the latter there are.
 fn unit_normals(normals: &mut [Normal3], positions: &[Point3], triangles: &[[u32; 3]]) -> u64 {
     let mut missing = false;
     for normal in normals.iter_mut() {
@@ -94,9 +140,6 @@ fn unit_normals(normals: &mut [Normal3], positions: &[Point3], triangles: &[[u32
                     *normal = face.unwrap_or_default().cast::<f32>().to_array().into();
                 }
             }
-        }
-        for normal in normals.iter_mut().filter(|n| **n == Normal3::default()) {
-            *normal = Normal3::new(0.0, 0.0, 1.0);
         }
     }
     count
@@ -119,8 +162,9 @@ mod tests {
             ..Raw::default()
         };
         let (mesh, mended) = finish(raw).unwrap();
-        assert_eq!(mesh.triangles(), [[0, 1, 3]]);
-        assert_eq!(mended.degenerate, 3);
+        assert_eq!(mesh.triangles(), [[0, 1, 2]]);
+        assert_eq!(mesh.positions()[2].y, 1e-30);
+        assert_eq!((mended.degenerate, mended.unused_vertices), (3, 0));
     }
 
     #[test]
@@ -136,7 +180,7 @@ mod tests {
                 Normal3::new(0.0, 3.0, 0.0),
                 Normal3::default(),
                 Normal3::new(1e-30, 0.0, 0.0),
-                Normal3::default(),
+                Normal3::new(0.0, 1.0, 0.0),
             ]),
             triangles: vec![[0, 1, 2]],
             ..Raw::default()
@@ -146,7 +190,7 @@ mod tests {
         assert_eq!(normals[0], Normal3::new(0.0, 1.0, 0.0));
         assert_eq!(normals[1], Normal3::new(0.0, 0.0, 1.0));
         assert_eq!(normals[2], Normal3::new(1.0, 0.0, 0.0));
-        assert!((normals[3].length() - 1.0).abs() < 1e-6);
-        assert_eq!(mended.zero_normals, 1);
+        assert_eq!(normals.len(), 3);
+        assert_eq!((mended.zero_normals, mended.unused_vertices), (1, 1));
     }
 }

@@ -35,7 +35,7 @@ pub struct Model {
     /// What its user should hear of.
     pub findings: Vec<Finding>,
     /// How many vertices the file defines. The parts have more where normals or texture
-    /// coordinates split them.
+    /// coordinates split them, and fewer where no triangle uses them.
     pub vertices: u64,
     /// How many triangles were left out because their area is zero.
     pub degenerate_triangles: u64,

@@ -57,28 +57,28 @@ fn rows_that_do_not_fit_the_header_are_named() {
     let error = |body: &str| try_read("a.ply", format!("{header}{body}")).unwrap_err();
     assert_eq!(
         error("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
-        "a.ply:12: element vertex, row 4 of 8 has 4 numbers, but 3 are expected"
+        "a.ply:13: element vertex, row 4 of 8 has 4 numbers, but 3 are expected"
     );
     assert_eq!(
         error("0 0 0\n1 0 0\n0 1\n"),
-        "a.ply:11: element vertex, row 3 of 8 has 2 numbers, but 3 are expected"
+        "a.ply:12: element vertex, row 3 of 8 has 2 numbers, but 3 are expected"
     );
     assert_eq!(
         error("0 0 0\n1 0 0\n"),
-        "a.ply:10: unexpected end of file in element vertex: row 3 of 8 is missing or cut"
+        "a.ply:11: unexpected end of file in element vertex: row 3 of 8 is missing or cut"
     );
     let vertices = "0 0 0\n".repeat(8);
     assert_eq!(
         error(&format!("{vertices}3 0 1 8\n")),
-        "a.ply:17: face uses vertex 8, but only 8 are defined (0 to 7)"
+        "a.ply:18: face uses vertex 8, but only 8 are defined (0 to 7)"
     );
     assert_eq!(
         error(&format!("{vertices}4 0 1 2\n")),
-        "a.ply:17: element face, row 1 of 12 has 4 numbers, but 5 are expected"
+        "a.ply:18: element face, row 1 of 12 has 4 numbers, but 5 are expected"
     );
     assert_eq!(
         error(&format!("{vertices}-1\n")),
-        "a.ply:17: -1 found where the length of a list, 0 or more, is expected"
+        "a.ply:18: -1 found where the length of a list, 0 or more, is expected"
     );
 }
 

@@ -97,11 +97,13 @@ fn the_same_picture_is_the_same_bytes_and_says_how_it_was_made() {
         assert_eq!((info.width, info.height), (3, 2));
         assert_eq!(info.channels.len(), 3);
         if name == "a.png" || name == "a.exr" {
-            assert_eq!(info.attributes["command"], "ombra render \"a scene\"\\n");
-            assert_eq!(info.attributes["version"], "ombra 0.1.0");
-            assert_eq!(info.attributes["scene-hash"], "0123abcd");
-            assert_eq!(info.attributes["seed"], u64::MAX.to_string());
-            assert!(info.attributes["seconds"].starts_with("1.5"));
+            let prefix = if name == "a.exr" { "ombra." } else { "" };
+            let attribute = |name: &str| info.attributes[&format!("{prefix}{name}")].as_str();
+            assert_eq!(attribute("command"), "ombra render \"a scene\"\\n");
+            assert_eq!(attribute("version"), "ombra 0.1.0");
+            assert_eq!(attribute("scene-hash"), "0123abcd");
+            assert_eq!(attribute("seed"), u64::MAX.to_string());
+            assert!(attribute("seconds").starts_with("1.5"));
         }
     }
 }

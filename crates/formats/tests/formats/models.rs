@@ -59,7 +59,7 @@ fn obj_smoothing_groups_share_normals_within_and_split_between() {
     let corner = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 1 1\n";
     let normals = |smoothing: [&str; 2]| {
         let [a, b] = smoothing;
-        let text = format!("{corner}s {a}\nf 1 2 3\ns {b}\nf 2 4 3\n");
+        let text = format!("{corner}s {a}\nf 1 2 3\ns {b}\nf 2 3 4\n");
         let model = read("model.obj", text);
         let mesh = model.parts[0].mesh.clone();
         assert!(model.findings.is_empty());
@@ -75,7 +75,7 @@ fn obj_smoothing_groups_share_normals_within_and_split_between() {
         assert_eq!(flat[0], Normal3::new(0.0, 0.0, 1.0));
     }
     // A file that says nothing leaves the choice to its reader.
-    let silent = read("model.obj", format!("{corner}f 1 2 3\nf 2 4 3\n"));
+    let silent = read("model.obj", format!("{corner}f 1 2 3\nf 2 3 4\n"));
     assert_eq!(silent.parts[0].mesh.normals(), None);
 }
 
