@@ -217,6 +217,9 @@ pub enum Fault {
         /// The folder.
         folder: PathBuf,
     },
+    /// A scene file that does not say what a scene file says.
+    #[error("{0}")]
+    Description(String),
     /// A mesh that does not hold together.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -260,6 +263,14 @@ impl FormatError {
     /// The same error of this file, unless it already names one.
     pub(crate) fn in_file(mut self, path: &Path) -> Self {
         self.0.path.get_or_insert_with(|| path.to_path_buf());
+        self
+    }
+
+    /// The same error at this place, unless it already names one or is about another file.
+    pub(crate) fn at(mut self, place: Place) -> Self {
+        if self.0.path.is_none() && self.0.place == Place::File {
+            self.0.place = place;
+        }
         self
     }
 

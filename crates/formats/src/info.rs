@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use ombra_scene::Material;
+use ombra_accel::Primitives as _;
+use ombra_geometry::triangle::TriangleTest;
+use ombra_scene::{Material, Object};
 use serde::Serialize;
 
 use crate::error::{Fault, FormatError};
@@ -10,6 +12,7 @@ use crate::finding::Finding;
 use crate::image::{ImageInfo, image_info};
 use crate::limits::Limits;
 use crate::mesh::{Model, ModelFormat, ending, read_model};
+use crate::scene::{SceneFile, read_scene};
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +23,8 @@ pub enum FileInfo {
     Model(ModelInfo),
     /// A picture.
     Image(ImageInfo),
+    /// A scene file.
+    Scene(SceneInfo),
 }
 
 /// What a model holds.
@@ -41,6 +46,23 @@ pub struct ModelInfo {
     pub bounds: Option<[[f32; 3]; 2]>,
     /// Its materials.
     pub materials: Vec<MaterialInfo>,
+    /// What its user should hear of.
+    pub findings: Vec<Finding>,
+}
+
+/// What a scene file holds, the models that it refers to included.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneInfo {
+    /// How many objects there are.
+    pub objects: u64,
+    /// How many triangles and other shapes the objects have.
+    pub primitives: u64,
+    /// How many materials there are.
+    pub materials: u64,
+    /// How many lights there are.
+    pub lights: u64,
+    /// Whether the file says where the camera is.
+    pub camera: bool,
     /// What its user should hear of.
     pub findings: Vec<Finding>,
 }
@@ -73,6 +95,10 @@ pub fn inspect(path: impl AsRef<Path>) -> Result<FileInfo, FormatError> {
         let model = read_model(path, &Limits::default())?;
         return Ok(FileInfo::Model(model_info(&model)));
     }
+    if ending(path) == "toml" {
+        let file = read_scene(path, TriangleTest::default(), &Limits::default())?;
+        return Ok(FileInfo::Scene(scene_info(file)));
+    }
     let info = image_info(path).map_err(|e| e.in_file(path))?;
     Ok(FileInfo::Image(info))
 }
@@ -97,6 +123,19 @@ fn model_info(model: &Model) -> ModelInfo {
             })
             .collect(),
         findings: model.findings.clone(),
+    }
+}
+
+fn scene_info(file: SceneFile) -> SceneInfo {
+    let scene = &file.scene;
+    let primitives = |object: &Object| scene.geometries[object.geometry.index()].len() as u64;
+    SceneInfo {
+        objects: scene.objects.len() as u64,
+        primitives: scene.objects.iter().map(primitives).sum(),
+        materials: scene.materials.len() as u64,
+        lights: scene.lights.len() as u64,
+        camera: scene.camera.is_some(),
+        findings: file.findings,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Files in and out: bytes to descriptions, and pictures to bytes. Nothing is traced here.
 //!
-//! In come models, as triangle meshes with Whitted's materials ([`read_model`]: OBJ with MTL, PLY,
-//! STL), and pictures ([`read_texture`], [`read_image`]); out go pictures ([`write_image`]: PNG,
+//! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
+//! ([`read_model`]: OBJ with MTL, PLY, STL), and pictures ([`read_texture`], [`read_image`]); out go pictures ([`write_image`]: PNG,
 //! EXR, PFM, PPM). [`inspect`] says what a file holds.
 //!
 //! ```no_run
@@ -21,6 +21,9 @@
 //! line or byte, what is wrong there and what would be right; what it can pass over is a
 //! [`Finding`].
 
+pub mod scene;
+pub mod sha256;
+
 mod error;
 mod finding;
 mod image;
@@ -35,6 +38,6 @@ pub use finding::Finding;
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, read_image, read_texture, write_image,
 };
-pub use info::{FileInfo, MaterialInfo, ModelInfo, inspect};
+pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;
-pub use mesh::{Model, ModelFormat, Part, read_model, smooth_normals};
+pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, smooth_normals};

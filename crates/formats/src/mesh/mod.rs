@@ -22,6 +22,7 @@ use crate::source::Source;
 
 pub use normals::smooth_normals;
 pub(crate) use polygon::MOST_CLIPPED_CORNERS;
+pub(crate) use reference::resolve;
 
 /// What a model file holds.
 #[derive(Clone, Debug)]
@@ -73,6 +74,12 @@ pub enum ModelFormat {
 }
 
 impl ModelFormat {
+    /// Whether it is STL, which is z up by custom.
+    #[must_use]
+    pub const fn is_stl(self) -> bool {
+        matches!(self, Self::StlAscii | Self::StlBinary)
+    }
+
     /// Its name, such as "PLY (binary, little endian)".
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -144,11 +151,28 @@ impl Model {
 /// listed in [`Model::findings`].
 pub fn read_model(path: impl AsRef<Path>, limits: &Limits) -> Result<Model, FormatError> {
     let path = path.as_ref();
-    read(path, limits).map_err(|e| e.in_file(path))
+    Source::open(path, limits)
+        .and_then(|source| read(source, path, limits))
+        .map_err(|e| e.in_file(path))
 }
 
-fn read(path: &Path, limits: &Limits) -> Result<Model, FormatError> {
-    let mut source = Source::open(path, limits)?;
+/// Reads a model that is in memory; the ending of its name says what it is, as in [`read_model`]. It
+/// cannot refer to other files.
+///
+/// # Errors
+/// As those of [`read_model`].
+pub fn read_model_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    limits: &Limits,
+) -> Result<Model, FormatError> {
+    let name = name.as_ref();
+    Source::new(bytes, bytes.len() as u64, limits)
+        .and_then(|source| read(source, name, limits))
+        .map_err(|e| e.in_file(name))
+}
+
+fn read(mut source: Source<'_>, path: &Path, limits: &Limits) -> Result<Model, FormatError> {
     if source.peek(1)?.is_empty() {
         return Err(FormatError::file(Fault::Empty));
     }

@@ -8,7 +8,7 @@ use crate::finding::Finding;
 /// (links followed); otherwise what to tell the user.
 ///
 /// Both `/` and `\` part the folders of a name. `what` is "materials file" or "texture".
-pub(super) fn resolve(folder: &Path, name: &str, what: &'static str) -> Result<PathBuf, Finding> {
+pub(crate) fn resolve(folder: &Path, name: &str, what: &'static str) -> Result<PathBuf, Finding> {
     let outside = || Finding::OutsideFolder {
         what,
         name: name.to_owned(),
