@@ -154,7 +154,7 @@ fn on_each_axis<T: Send>(count: usize, work: impl Fn(Axis) -> T + Sync) -> [T; 3
 /// Builds the tree over padded boxes, all of which lie in `bounds`.
 pub(super) fn grow(boxes: &[Aabb<f64>], bounds: &Aabb<f64>) -> Branch {
     let count = boxes.len().max(1);
-    // Havran's rule of thumb, with the constants of Wald and Havran's paper.
+    // The rule of Pharr, Jakob, Humphreys, "Physically Based Rendering", for kd-trees.
     let depth = (8.0 + 1.3 * (count as f64).log2()) as usize;
     let budget = count.saturating_mul(REFERENCES).min(u32::MAX as usize);
     let faces = Faces::of(boxes);

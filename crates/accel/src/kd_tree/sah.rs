@@ -16,7 +16,7 @@ const STEP: f64 = 1.0;
 
 /// What a cut that leaves one half empty costs less: such a half is passed without a test, and the
 /// heuristic, which thinks rays endless, does not see that many rays begin close by (Wald, Havran
-/// 2006, section 2.3).
+/// 2006).
 const EMPTY_SPACE: f64 = 0.8;
 
 /// A cut.
