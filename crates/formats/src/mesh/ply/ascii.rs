@@ -27,24 +27,7 @@ pub(super) fn read_rows(
             continue;
         }
         row += 1;
-        let outcome = match role {
-            Role::Vertices { slots, .. } => read_vertex(&mut words, element, slots, collected),
-            Role::Faces { corners } => {
-                let read = read_lists(&mut words, element, *corners, |index| {
-                    collected.push_corner(index)
-                });
-                collected.end_face();
-                read
-            }
-            Role::Strips { corners } => {
-                let read = read_lists(&mut words, element, *corners, |index| {
-                    collected.push_strip_corner(index)
-                });
-                collected.end_strip();
-                read
-            }
-            Role::Unused => continue,
-        };
+        let outcome = read_row(&mut words, element, role, collected);
         let wrong_length = |expected| Fault::RowLength {
             element: element.name.clone(),
             row,
@@ -69,6 +52,31 @@ pub(super) fn read_rows(
         }
     }
     Ok(())
+}
+
+fn read_row(
+    words: &mut Words<'_>,
+    element: &Element,
+    role: &Role,
+    collected: &mut Collected,
+) -> Result<(), Stop> {
+    match role {
+        Role::Vertices { slots, .. } => read_vertex(words, element, slots, collected),
+        Role::Faces { corners } => {
+            read_lists(words, element, *corners, |i| collected.push_corner(i))?;
+            collected.end_face();
+            Ok(())
+        }
+        Role::Strips { corners } => {
+            read_lists(words, element, *corners, |i| collected.push_strip_corner(i))?;
+            collected.end_strip();
+            Ok(())
+        }
+        Role::Unused => {
+            words.0 = &[];
+            Ok(())
+        }
+    }
 }
 
 /// Why a row could not be read.
