@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use ombra_accel::{Geometry, Mesh, Shapes};
 use ombra_geometry::triangle::TriangleTest;
-use ombra_geometry::{Angle, Object, Point3, Transform, Vector3, World};
+use ombra_geometry::{Angle, Object, Point3, Transform, TriangleMesh, Vector3, World};
 use ombra_scene::camera::{Orthographic, Panorama, Perspective, Pose, Projection, ThinLens};
 use ombra_scene::light::Falloff;
 use ombra_scene::{Camera, Light, Material, MaterialId, Rgb, Scene, Texture};
@@ -202,10 +202,7 @@ impl Builder<'_> {
             self.scene.materials.extend(model.materials);
         }
         for part in model.parts {
-            let mesh = match part.mesh.normals() {
-                Some(_) => part.mesh,
-                None => smooth_normals(&part.mesh, CREASE).map_err(FormatError::file)?,
-            };
+            let mesh = with_normals(part.mesh)?;
             let geometry = Geometry::Mesh(Mesh::with_test(mesh, self.test));
             let own = MaterialId((first + part.material) as u32);
             let name = format!("{name}, {}", part.name);
@@ -272,6 +269,17 @@ impl Builder<'_> {
     fn default_material(&mut self) -> MaterialId {
         self.scene.materials.push(Material::default());
         MaterialId(self.scene.materials.len() as u32 - 1)
+    }
+}
+
+/// The same mesh with normals, if it has none: smooth where its triangles meet at less than 35°.
+///
+/// # Errors
+/// When splitting vertices at sharp edges gives more of them than a mesh can index.
+pub fn with_normals(mesh: TriangleMesh) -> Result<TriangleMesh, FormatError> {
+    match mesh.normals() {
+        Some(_) => Ok(mesh),
+        None => smooth_normals(&mesh, CREASE).map_err(FormatError::file),
     }
 }
 

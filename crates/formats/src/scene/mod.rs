@@ -18,6 +18,7 @@ use crate::finding::Finding;
 use crate::limits::Limits;
 
 pub use assets::Assets;
+pub use build::with_normals;
 
 /// What a scene file holds.
 #[derive(Clone, Debug)]

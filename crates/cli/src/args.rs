@@ -1,0 +1,223 @@
+//! What may be typed, as types: parser, help and error messages follow from these.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
+use ombra::geometry::triangle::TriangleTest;
+use ombra::render::{Crop, IntegratorKind};
+
+/// A ray tracing engine.
+///
+/// Without a command, the built-in scene `whitted` is rendered to whitted.png.
+#[derive(Debug, Parser)]
+#[command(name = "ombra", version, disable_help_subcommand = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene or a model to a picture
+    Render(Box<RenderArgs>),
+    /// Say what a file holds: a model, a scene, a picture
+    Info(InfoArgs),
+    /// List the built-in scenes
+    Scenes(ListArgs),
+    /// List the acceleration structures that --accel knows
+    Structures(ListArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RenderArgs {
+    /// A scene file (.toml), a model (.obj, .ply, .ply.gz, .stl) or a built-in scene's name
+    pub(crate) scene: String,
+
+    /// Where to write the picture; the ending chooses the format: png, exr, pfm, ppm
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// How to turn rays into a picture
+    #[arg(long, default_value_t, value_parser = named(IntegratorKind::ALL, IntegratorKind::name))]
+    pub(crate) integrator: IntegratorKind,
+
+    /// Width and height in pixels [default: 960x540, or what the scene file says]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(crate) size: Option<Size>,
+
+    /// Samples a pixel; 1 goes through the centre of the pixel [default: 16, or what the scene file says]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(crate) spp: Option<u32>,
+
+    /// How often light may be reflected or transmitted
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub(crate) max_depth: u32,
+
+    /// Another seed gives other random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+
+    /// The acceleration structure; `ombra structures` lists them
+    #[arg(long, value_name = "NAME", default_value = StructureKind::default().name(), value_parser = accel)]
+    pub(crate) accel: Accel,
+
+    /// How rays are tested against triangles
+    #[arg(long, value_name = "NAME", default_value_t, value_parser = named(&TriangleTest::ALL, TriangleTest::name))]
+    pub(crate) triangle_test: TriangleTest,
+
+    /// Threads to use; 0 means all
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(crate) threads: u32,
+
+    /// Where to run; `auto` takes a GPU if this build can use one
+    #[arg(long, value_enum, default_value_t = Device::Auto)]
+    pub(crate) device: Device,
+
+    /// Render these pixels only: left, top, right, bottom; right and bottom are not included
+    #[arg(long, value_name = "x0,y0,x1,y1", value_parser = crop)]
+    pub(crate) crop: Option<Crop>,
+
+    /// Which axis of a model points up [default: z for .stl, y otherwise]
+    #[arg(long, value_enum)]
+    pub(crate) up: Option<Up>,
+
+    /// No progress bar, no talk
+    #[arg(long)]
+    pub(crate) quiet: bool,
+
+    /// Statistics on standard output, as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InfoArgs {
+    /// The file
+    pub(crate) file: PathBuf,
+
+    /// As JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ListArgs {
+    /// As JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Pixels across and down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+/// A structure and, if it was called by another name, which.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accel {
+    pub(crate) kind: StructureKind,
+    pub(crate) alias: Option<StructureAlias>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Device {
+    Cpu,
+    Gpu,
+    Auto,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Up {
+    X,
+    Y,
+    Z,
+}
+
+/// Parses the name of one of a closed set, so that help and errors list all of them.
+fn named<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl clap::builder::TypedValueParser<Value = T> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    PossibleValuesParser::new(all.iter().map(|&one| name(one))).map(move |typed| {
+        let of_that_name = all.iter().copied().find(|&one| name(one) == typed);
+        of_that_name.expect("the parser accepts names of the set only")
+    })
+}
+
+fn accel(text: &str) -> Result<Accel, UnknownStructure> {
+    Ok(Accel {
+        kind: text.parse()?,
+        alias: StructureAlias::of(text),
+    })
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    const WANTED: &str = "two whole numbers above 0 with an x between them, such as 960x540";
+    let (width, height) = text.split_once(['x', 'X']).ok_or(WANTED)?;
+    let number = |part: &str| {
+        part.trim()
+            .parse::<u32>()
+            .ok()
+            .filter(|&n| n > 0)
+            .ok_or(WANTED)
+    };
+    Ok(Size {
+        width: number(width)?,
+        height: number(height)?,
+    })
+}
+
+fn crop(text: &str) -> Result<Crop, String> {
+    const WANTED: &str = "four whole numbers left,top,right,bottom with left < right and \
+                          top < bottom, such as 100,50,300,200";
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok(Crop { x0, y0, x1, y1 }),
+        _ => Err(WANTED.to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_parser_is_sound() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_two_numbers_above_zero() {
+        assert_eq!(
+            size("960x540"),
+            Ok(Size {
+                width: 960,
+                height: 540
+            })
+        );
+        for wrong in ["", "960", "960x", "0x10", "-1x10", "1x2x3", "99999999999x1"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_crop_has_pixels() {
+        assert_eq!(
+            crop("1,2,3,4"),
+            Ok(Crop {
+                x0: 1,
+                y0: 2,
+                x1: 3,
+                y1: 4
+            })
+        );
+        for wrong in ["", "1,2,3", "1,2,1,4", "3,2,1,4", "a,b,c,d", "1,2,3,4,5"] {
+            assert!(crop(wrong).is_err(), "{wrong}");
+        }
+    }
+}

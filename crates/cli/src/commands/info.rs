@@ -1,0 +1,98 @@
+//! `ombra info`: what a file holds.
+
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+use ombra::formats::{FileInfo, Finding, ImageInfo, ModelInfo, SceneInfo, inspect};
+
+use crate::args::InfoArgs;
+
+pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
+    let info = inspect(&args.file)?;
+    let text = if args.json {
+        serde_json::to_string_pretty(&info)? + "\n"
+    } else {
+        words(&info)?
+    };
+    io::stdout().write_all(text.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn words(info: &FileInfo) -> anyhow::Result<String> {
+    match info {
+        FileInfo::Model(info) => model(info),
+        FileInfo::Image(info) => image(info),
+        FileInfo::Scene(info) => scene(info),
+        other => Ok(serde_json::to_string_pretty(other)? + "\n"),
+    }
+}
+
+fn model(info: &ModelInfo) -> anyhow::Result<String> {
+    let mut text = String::new();
+    let yes_or_no = |has| if has { "yes" } else { "no" };
+    writeln!(text, "format      {}", info.format.name())?;
+    writeln!(text, "vertices    {}", info.vertices)?;
+    writeln!(text, "triangles   {}", info.triangles)?;
+    if info.degenerate_triangles > 0 {
+        writeln!(
+            text,
+            "degenerate  {} triangles without area, left out",
+            info.degenerate_triangles
+        )?;
+    }
+    if let Some([min, max]) = info.bounds {
+        writeln!(text, "bounds      {min:?} to {max:?}")?;
+    }
+    writeln!(text, "normals     {}", yes_or_no(info.normals))?;
+    writeln!(text, "uvs         {}", yes_or_no(info.uvs))?;
+    for material in &info.materials {
+        let (name, kind, triangles) = (&material.name, material.kind, material.triangles);
+        writeln!(text, "material    {name}: {kind}, {triangles} triangles")?;
+    }
+    notes(&mut text, &info.findings)?;
+    Ok(text)
+}
+
+fn image(info: &ImageInfo) -> anyhow::Result<String> {
+    let mut text = String::new();
+    writeln!(text, "format      {}", info.format)?;
+    writeln!(text, "size        {}x{} pixels", info.width, info.height)?;
+    writeln!(
+        text,
+        "channels    {} ({})",
+        info.channels.join(", "),
+        info.sample
+    )?;
+    for (name, value) in &info.attributes {
+        writeln!(text, "attribute   {name}: {value}")?;
+    }
+    Ok(text)
+}
+
+fn scene(info: &SceneInfo) -> anyhow::Result<String> {
+    let mut text = String::new();
+    writeln!(text, "format      ombra scene")?;
+    writeln!(text, "objects     {}", info.objects)?;
+    writeln!(text, "primitives  {}", info.primitives)?;
+    writeln!(text, "materials   {}", info.materials)?;
+    writeln!(text, "lights      {}", info.lights)?;
+    writeln!(
+        text,
+        "camera      {}",
+        if info.camera {
+            "in the file"
+        } else {
+            "made to fit"
+        }
+    )?;
+    notes(&mut text, &info.findings)?;
+    Ok(text)
+}
+
+fn notes(text: &mut String, findings: &[Finding]) -> anyhow::Result<()> {
+    for finding in findings {
+        writeln!(text, "note        {finding}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! The commands, one file each.
+
+pub(crate) mod info;
+pub(crate) mod lists;
+pub(crate) mod render;
