@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use ombra_geometry::Ray;
 use ombra_pipeline::Exception;
-use ombra_scene::Camera;
-use ombra_scene::camera::CameraSample;
+use ombra_scene::camera::{CameraSample, Projection};
+use ombra_scene::{Camera, Rgb};
 
 use crate::film::{Crop, Pixel};
-use crate::sampler::{Dimension, Sample};
+use crate::sampler::{Dimension, Numbers, Sample};
 use crate::{SamplerKind, Settings};
 
 /// One pass over a film: which samples of its pixels to take, and along which rays.
@@ -22,6 +22,7 @@ pub(crate) struct Exposure<'a> {
     seed: u64,
     /// Of one sample a pixel, which goes through its middle.
     centred: bool,
+    has_lens: bool,
     samples: Range<u32>,
 }
 
@@ -36,6 +37,7 @@ impl<'a> Exposure<'a> {
             sampler: settings.sampler,
             seed: settings.seed,
             centred: settings.spp == 1,
+            has_lens: matches!(camera.projection, Projection::ThinLens(_)),
             samples,
         }
     }
@@ -46,12 +48,13 @@ impl<'a> Exposure<'a> {
         &self,
         launch_index: [u32; 3],
         pixel: &mut Pixel,
-        mut measure: impl FnMut(&Ray, &Sample) -> Result<ombra_scene::Rgb, Exception>,
+        mut measure: impl FnMut(&Ray, &Sample) -> Result<Rgb, Exception>,
     ) -> Result<(), Exception> {
         let [x, y, _] = launch_index;
         let place = [self.crop.x0 + x, self.crop.y0 + y];
+        let numbers = Numbers::new(self.sampler, self.seed, place);
         for index in self.samples.clone() {
-            let sample = Sample::new(self.sampler, self.seed, place, index);
+            let sample = numbers.sample(index);
             let measured = measure(&self.ray(place, &sample), &sample)?;
             pixel.add(measured);
         }
@@ -60,10 +63,18 @@ impl<'a> Exposure<'a> {
 
     #[inline]
     fn ray(&self, [x, y]: [u32; 2], sample: &Sample) -> Ray {
-        let (within, lens) = if self.centred {
-            ([0.5; 2], [0.5; 2])
+        let pair = |dimension| {
+            if self.centred {
+                [0.5; 2]
+            } else {
+                sample.pair(dimension)
+            }
+        };
+        let within = pair(Dimension::Pixel);
+        let lens = if self.has_lens {
+            pair(Dimension::Lens)
         } else {
-            (sample.pair(Dimension::Pixel), sample.pair(Dimension::Lens))
+            [0.5; 2]
         };
         let screen = [
             (x as f32 + within[0]) / self.picture[0] as f32,

@@ -12,7 +12,7 @@ pub const MAX_PIXELS: u64 = 1 << 31;
 pub const MAX_SPP: u32 = 1 << 24;
 
 /// The most bounces: each takes its part of a thread's stack.
-pub const MAX_DEPTH: u32 = 256;
+pub const MAX_DEPTH: u32 = 128;
 
 /// What picture to make. The same settings give the same picture, to the last bit.
 #[derive(Clone, Debug, PartialEq)]

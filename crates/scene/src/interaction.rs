@@ -62,11 +62,9 @@ impl Interaction {
         };
         let point: Point3 = world_from_object.point(local.point).cast();
         let object_point: Point3 = local.point.cast();
-        let unit = |n: Normal3| {
-            world_from_object
-                .normal(n)
-                .normalized()
-                .unwrap_or(wo.to_normal())
+        let unit = |n: Normal3<f64>| {
+            let across = world_from_object.normal(n).normalized();
+            across.map_or(wo.to_normal(), Normal3::cast)
         };
         let normal = unit(local.normal);
         let shading_normal = match local.interpolated_normal.map(unit) {
@@ -144,9 +142,10 @@ fn growth(transform: &Transform<Object, World>) -> f32 {
 /// What is known in the space of the object.
 struct Local {
     point: Point3<f64>,
-    normal: Normal3,
-    /// Where the mesh has normals.
-    interpolated_normal: Option<Normal3>,
+    /// Of any length.
+    normal: Normal3<f64>,
+    /// Where the mesh has normals; of any length.
+    interpolated_normal: Option<Normal3<f64>>,
     uv: [f32; 2],
     /// The extent of what the next ray's test computes with in single precision.
     test_extent: f32,
@@ -160,12 +159,13 @@ impl Local {
         let [a, b, c] = mesh.corners(triangle);
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let (ab, ac) = (b.wide() - a.wide(), c.wide() - a.wide());
-        let normal = ab.cross(ac).normalized().unwrap_or(Vector3::Z.wide());
         let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
         let ids = mesh.triangles()[triangle].map(|i| i as usize);
         let interpolated_normal = mesh.normals().and_then(|normals| {
             let [a, b, c] = ids.map(|i| normals[i]);
-            (a * weights[0] + b * weights[1] + c * weights[2]).normalized()
+            let blended = (a * weights[0] + b * weights[1] + c * weights[2]).wide();
+            // Opposite normals may cancel out.
+            (blended.length() > 0.0).then_some(blended)
         });
         let uv = mesh.uvs().map_or([hit.u, hit.v], |uvs| {
             let corner = ids.map(|i| uvs[i]);
@@ -174,7 +174,7 @@ impl Local {
         Self {
             // In double precision the point lies on the triangle, whatever the rounding of u and v.
             point: a.wide() + ab * u + ac * v,
-            normal: normal.to_normal().cast(),
+            normal: ab.cross(ac).to_normal(),
             interpolated_normal,
             uv,
             test_extent: ab.max_norm().max(ac.max_norm()) as f32,
@@ -193,7 +193,7 @@ impl Local {
         let point = world_from_object.inverse().point(on_ray);
         Self {
             point,
-            normal: shape.surface_at(point).normal.cast(),
+            normal: shape.surface_at(point).normal,
             interpolated_normal: None,
             uv: [hit.u, hit.v],
             // Shapes are tested in double precision.

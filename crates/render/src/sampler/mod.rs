@@ -86,31 +86,49 @@ impl Dimension {
     pub const ALL: &[Self] = &[Self::Pixel, Self::Lens, Self::Hemisphere];
 }
 
-/// All the numbers of one sample of one pixel.
+/// All the numbers of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sample {
+pub struct Numbers {
     kind: SamplerKind,
     /// Seed and pixel.
     key: u64,
+}
+
+impl Numbers {
+    /// The numbers of a pixel.
+    #[must_use]
+    #[inline]
+    pub fn new(kind: SamplerKind, seed: u64, [x, y]: [u32; 2]) -> Self {
+        let pixel = u64::from(x) | u64::from(y) << 32;
+        let key = mix(mix(seed) ^ pixel);
+        Self { kind, key }
+    }
+
+    /// Those of one sample.
+    #[must_use]
+    #[inline]
+    pub fn sample(self, index: u32) -> Sample {
+        Sample {
+            numbers: self,
+            index,
+        }
+    }
+}
+
+/// All the numbers of one sample of one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sample {
+    numbers: Numbers,
     index: u32,
 }
 
 impl Sample {
-    /// The numbers of sample `index` of a pixel.
-    #[must_use]
-    #[inline]
-    pub fn new(kind: SamplerKind, seed: u64, [x, y]: [u32; 2], index: u32) -> Self {
-        let pixel = u64::from(x) | u64::from(y) << 32;
-        let key = mix(mix(seed) ^ pixel);
-        Self { kind, key, index }
-    }
-
     /// Two numbers in `[0, 1)`, uniform over the square.
     #[must_use]
     #[inline]
     pub fn pair(&self, dimension: Dimension) -> [f32; 2] {
-        let key = hash::step(self.key, dimension as u32);
-        match self.kind {
+        let key = hash::step(self.numbers.key, dimension as u32);
+        match self.numbers.kind {
             SamplerKind::Sobol => sobol::pair(key, self.index),
             SamplerKind::Independent => independent::pair(key, self.index),
         }

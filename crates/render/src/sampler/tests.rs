@@ -6,7 +6,11 @@ const SEED: u64 = 7;
 
 fn points(kind: SamplerKind, pixel: [u32; 2], count: u32) -> Vec<[f32; 2]> {
     (0..count)
-        .map(|index| Sample::new(kind, SEED, pixel, index).pair(Dimension::Pixel))
+        .map(|index| {
+            Numbers::new(kind, SEED, pixel)
+                .sample(index)
+                .pair(Dimension::Pixel)
+        })
         .collect()
 }
 
@@ -45,7 +49,11 @@ fn pixels_among_themselves_are_uniform_too() {
         for index in [0, 1, 5] {
             let mut counts = [0_f64; 64];
             let firsts: Vec<_> = (0..1 << 12)
-                .map(|i| Sample::new(kind, SEED, [i % 64, i / 64], index).pair(Dimension::Pixel))
+                .map(|i| {
+                    Numbers::new(kind, SEED, [i % 64, i / 64])
+                        .sample(index)
+                        .pair(Dimension::Pixel)
+                })
                 .collect();
             boxes(&firsts, 3, 3).for_each(|i| counts[i] += 1.0);
             let chi_square: f64 = counts.iter().map(|c| (c - 64.0) * (c - 64.0) / 64.0).sum();
@@ -77,7 +85,9 @@ fn each_run_of_a_power_of_two_sobol_points_fills_every_elementary_interval() {
 fn numbers_are_below_one_and_depend_on_everything_they_are_given() {
     for &kind in SamplerKind::ALL {
         let pair = |seed, pixel, index, dimension| {
-            let pair = Sample::new(kind, seed, pixel, index).pair(dimension);
+            let pair = Numbers::new(kind, seed, pixel)
+                .sample(index)
+                .pair(dimension);
             assert!(pair.iter().all(|x| (0.0..1.0).contains(x)));
             pair
         };
@@ -111,7 +121,7 @@ fn neighbours_and_dimensions_know_nothing_of_one_another() {
     // Four standard deviations of the correlation of independent numbers.
     let limit = 4.0 / f64::from(count).sqrt();
     for &kind in SamplerKind::ALL {
-        let sample = |x: u32, index| Sample::new(kind, SEED, [x, 11], index);
+        let sample = |x: u32, index| Numbers::new(kind, SEED, [x, 11]).sample(index);
         let across_pixels: Vec<_> = (0..count)
             .map(|x| {
                 let at = |x| sample(x, 0).pair(Dimension::Pixel)[0];

@@ -1,10 +1,11 @@
 //! No surface shades itself.
 
 use ombra_accel::{Geometry, Mesh};
-use ombra_geometry::shape::Sphere;
+use ombra_geometry::shape::{Cone, Cuboid, Cylinder, Disk, Ends, Plane, Shape, Sphere, Torus};
 use ombra_geometry::{Object, Point3, Transform, TriangleMesh, Vector3, World as WorldSpace};
 use ombra_render::{IntegratorKind, Settings};
-use ombra_scene::{Rgb, Scene};
+use ombra_scene::camera::{Orthographic, Pose, Projection};
+use ombra_scene::{Camera, Rgb, Scene};
 
 use crate::stage::*;
 
@@ -43,17 +44,37 @@ fn places() -> Vec<(f32, Vector3, Transform<Object, WorldSpace>)> {
     places
 }
 
+/// From where the camera looks at things.
+const VIEW: Vector3 = Vector3::new(0.4, 1.0, 0.7);
+
+/// Along the light, without perspective: what is seen is lit, and nothing else is.
+fn along_the_light(middle: Point3, scale: f32) -> Camera {
+    Camera {
+        pose: Pose::look_at(middle + VIEW * (4.0 * scale), middle, Vector3::Y).unwrap(),
+        projection: Projection::Orthographic(Orthographic {
+            height: 2.6 * scale,
+        }),
+    }
+}
+
+/// Nearly along the light: the front of something convex is lit.
+fn nearly_along_the_light(middle: Point3, scale: f32) -> Camera {
+    camera_at(middle + VIEW * (4.0 * scale), middle, 24.0)
+}
+
 /// A picture of one thing whose front is lit: every pixel of it must be.
-fn assert_no_dark_pixel(name: &str, make: impl Fn(Point3, f32) -> Geometry) {
+fn assert_no_dark_pixel(
+    name: &str,
+    camera: impl Fn(Point3, f32) -> Camera,
+    make: impl Fn(Point3, f32) -> Geometry,
+) {
     for (scale, offset, transform) in places() {
         let centre = Point3::ORIGIN + offset;
         let middle: Point3 = transform.point(centre.wide()).cast();
-        // Nearly from where the camera stands: all that it sees is turned to the light.
-        let view = Vector3::new(0.4, 1.0, 0.7);
-        let camera = camera_at(middle + view * (4.0 * scale), middle, 24.0);
+        let camera = camera(middle, scale);
         let mut lit = Scene {
             background: Rgb::WHITE,
-            lights: vec![directional(-0.4, -1.0, -0.7)],
+            lights: vec![directional(-VIEW.x, -VIEW.y, -VIEW.z)],
             ..Scene::default()
         };
         lit.add(name, make(centre, scale), white(), transform);
@@ -63,6 +84,7 @@ fn assert_no_dark_pixel(name: &str, make: impl Fn(Point3, f32) -> Geometry) {
             ..settings()
         };
         let film = picture(&build(lit), &camera, &settings).film;
+        let mut shaded = 0;
         for y in 0..96 {
             for x in 0..96 {
                 let seen = film.average(x, y).unwrap().r;
@@ -70,24 +92,31 @@ fn assert_no_dark_pixel(name: &str, make: impl Fn(Point3, f32) -> Geometry) {
                     seen > 0.0,
                     "{name} of {scale} at {offset:?}: ({x}, {y}) is dark"
                 );
+                shaded += u32::from(seen < 1.0);
             }
         }
+        assert!(
+            shaded > 1000,
+            "{name} of {scale} at {offset:?} is not in the picture"
+        );
     }
 }
 
 #[test]
 fn a_lit_ball_has_no_dark_pixel() {
-    assert_no_dark_pixel("ball", |centre, radius| shape(Sphere::new(centre, radius)));
+    assert_no_dark_pixel("ball", nearly_along_the_light, |centre, radius| {
+        shape(Sphere::new(centre, radius))
+    });
 }
 
 #[test]
 fn a_lit_mesh_has_no_dark_pixel() {
-    assert_no_dark_pixel("mesh", mesh_ball);
+    assert_no_dark_pixel("mesh", nearly_along_the_light, mesh_ball);
 }
 
 #[test]
 fn a_lit_floor_has_no_dark_pixel() {
-    assert_no_dark_pixel("floor", |centre, half| {
+    assert_no_dark_pixel("floor", nearly_along_the_light, |centre, half| {
         let side = half * 20.0;
         quad(
             centre - Vector3::new(side, 0.0, side) * 0.5,
@@ -95,6 +124,42 @@ fn a_lit_floor_has_no_dark_pixel() {
             Vector3::new(side, 0.0, 0.0),
         )
     });
+}
+
+#[test]
+fn no_lit_shape_has_a_dark_pixel() {
+    type Make = fn(Point3, f32) -> Shape;
+    let shapes: [(&str, Make); 6] = [
+        ("cylinder", |c, r| {
+            let half = Vector3::new(0.0, 0.6 * r, 0.3 * r);
+            Cylinder::new(c - half, c + half, 0.5 * r, Ends::Open)
+                .unwrap()
+                .into()
+        }),
+        ("cone", |c, r| {
+            let half = Vector3::Y * (0.6 * r);
+            Cone::new(c - half, c + half, 0.6 * r, Ends::Capped)
+                .unwrap()
+                .into()
+        }),
+        ("box", |c, r| {
+            let half = Vector3::new(0.5, 0.4, 0.6) * r;
+            Cuboid::new(c - half, c + half).unwrap().into()
+        }),
+        ("torus", |c, r| {
+            let axis = Vector3::Y.to_normal();
+            Torus::new(c, axis, 0.7 * r, 0.3 * r).unwrap().into()
+        }),
+        ("disk", |c, r| {
+            Disk::new(c, Vector3::Y.to_normal(), r).unwrap().into()
+        }),
+        ("plane", |c, _| {
+            Plane::new(c, Vector3::Y.to_normal()).unwrap().into()
+        }),
+    ];
+    for (name, make) in shapes {
+        assert_no_dark_pixel(name, along_the_light, |c, r| shape(make(c, r)));
+    }
 }
 
 #[test]
