@@ -1,6 +1,7 @@
 //! A structure over primitives: what answers queries.
 
 use ombra_geometry::{Aabb, EdgeRule, Ray};
+use rayon::prelude::*;
 
 use crate::search::Search;
 use crate::{
@@ -23,24 +24,27 @@ impl<P: Primitives> Accel<P> {
     /// Builds the named structure. Primitives with an empty or NaN box are left out.
     #[must_use]
     pub fn build(primitives: P, kind: StructureKind) -> Self {
-        let mut bounded = Vec::with_capacity(primitives.len());
         let mut unbounded = Vec::new();
         let mut bounds = Aabb::EMPTY;
-        for primitive in 0..primitives.len() as u32 {
-            let own = primitives.bounds(primitive);
-            if own.is_empty() {
-                continue;
+        let mut bounded: Vec<_> = (0..primitives.len() as u32)
+            .into_par_iter()
+            .map(|primitive| Bounded {
+                bounds: primitives.bounds(primitive),
+                primitive,
+            })
+            .collect();
+        bounded.retain(|own| {
+            if own.bounds.is_empty() {
+                return false;
             }
-            if own.is_finite() {
-                bounds = bounds.union(own);
-                bounded.push(Bounded {
-                    bounds: own,
-                    primitive,
-                });
+            let finite = own.bounds.is_finite();
+            if finite {
+                bounds = bounds.union(own.bounds);
             } else {
-                unbounded.push(primitive);
+                unbounded.push(own.primitive);
             }
-        }
+            finite
+        });
         let reach = Reach::of(&bounds);
         let structure = kind.build(&bounded, &reach);
         if !unbounded.is_empty() {
@@ -59,6 +63,15 @@ impl<P: Primitives> Accel<P> {
     #[must_use]
     pub const fn primitives(&self) -> &P {
         &self.primitives
+    }
+
+    /// The box that holds every hit that counts: the bounds, padded by what rounding can do.
+    pub(crate) fn hit_bounds(&self) -> Aabb {
+        if self.bounds.is_finite() && !self.bounds.is_empty() {
+            Aabb::enclosing(self.bounds.wide().padded(self.reach.hit_pad_limit()))
+        } else {
+            self.bounds
+        }
     }
 
     /// Bytes of the structure alone.

@@ -74,8 +74,13 @@ impl<P: Primitives> Primitives for Instances<P> {
 
     fn bounds(&self, primitive: u32) -> Aabb {
         let instance = &self.instances[primitive as usize];
-        let bounds = self.geometries[instance.geometry.index()].bounds();
-        instance.world_from_object.aabb(&bounds)
+        let geometry = &self.geometries[instance.geometry.index()];
+        // A hit found in object space can lie a little outside the geometry's bounds, and an uneven
+        // scale can make that more than this level allows for. Where nothing is moved it does not.
+        match self.object_from_world[primitive as usize] {
+            None => geometry.bounds(),
+            Some(_) => instance.world_from_object.aabb(&geometry.hit_bounds()),
+        }
     }
 
     fn prepare(&self, _ray: &TraversalRay, rule: EdgeRule) -> Self::Prepared {

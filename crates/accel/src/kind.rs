@@ -4,7 +4,11 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::str::FromStr;
 
-use crate::{Bounded, BruteForce, Reach, Structure, TraversalRay, Visitor};
+use crate::bvh::{Bvh, Lbvh, Median, Sah};
+use crate::{
+    Bih, Bounded, BruteForce, Grid, Grid2, KdRestart, KdRopes, KdShortStack, KdStack, Octree,
+    Reach, Structure, StructureAlias, TraversalRay, Visitor,
+};
 
 /// Every structure, with its name and a line on each.
 ///
@@ -73,8 +77,19 @@ macro_rules! structures {
 }
 
 structures! {
-    #[default]
     BruteForce(BruteForce), "brute-force", "no structure: every primitive is tested";
+    Grid(Grid), "grid", "uniform grid: equal cells, walked from one to the next";
+    Grid2(Grid2), "grid2", "grid in a grid: crowded cells hold a grid of their own";
+    Octree(Octree), "octree", "octree: crowded cubes are cut into eight";
+    KdStack(KdStack), "kd-stack", "kd-tree, what is still to visit waits on a stack";
+    KdRestart(KdRestart), "kd-restart", "kd-tree, walked from the root for every leaf";
+    KdShortStack(KdShortStack), "kd-short-stack", "kd-tree, a stack of four, else from the root";
+    KdRopes(KdRopes), "kd-ropes", "kd-tree, ropes lead from leaf to leaf";
+    Bih(Bih), "bih", "bounding interval hierarchy: two clip planes a node, built in one quick pass";
+    #[default]
+    Bvh(Bvh<Sah>), "bvh", "boxes within boxes, cut where the surface area heuristic says";
+    BvhMedian(Bvh<Median>), "bvh-median", "boxes within boxes, each list halved along the widest axis";
+    BvhLbvh(Bvh<Lbvh>), "bvh-lbvh", "boxes within boxes, cut along a Morton curve: the quickest to build";
 }
 
 /// A name that no structure has.
@@ -103,6 +118,7 @@ impl FromStr for StructureKind {
             .iter()
             .copied()
             .find(|kind| kind.name().eq_ignore_ascii_case(name))
+            .or_else(|| StructureAlias::of(name).map(|alias| alias.kind))
             .ok_or_else(|| UnknownStructure(name.to_owned()))
     }
 }

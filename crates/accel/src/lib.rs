@@ -28,10 +28,21 @@
 //! on that rounding; and every structure is built or traversed with boxes padded by more. So what
 //! counts is found, whichever way one looks. The bound is in [`TraversalRay`], the only place.
 
+pub mod bvh;
+
 mod accel;
+mod alias;
+mod bih;
 mod brute_force;
+mod cells;
+mod grid;
+mod grid2;
 mod instance;
+mod kd_tree;
 mod kind;
+mod lattice;
+mod octree;
+mod partition;
 mod primitives;
 mod search;
 mod statistics;
@@ -40,9 +51,15 @@ mod traversable;
 mod traversal_ray;
 
 pub use accel::Accel;
+pub use alias::StructureAlias;
+pub use bih::Bih;
 pub use brute_force::BruteForce;
+pub use grid::Grid;
+pub use grid2::Grid2;
 pub use instance::{Instance, Instances};
+pub use kd_tree::{KdRestart, KdRopes, KdShortStack, KdStack};
 pub use kind::{AnyStructure, StructureKind, UnknownStructure};
+pub use octree::Octree;
 pub use primitives::{AnyHit, Candidate, Geometry, Mesh, Primitives, Shapes};
 pub use statistics::{Counter, Statistics};
 pub use structure::{Bounded, Span, Structure, Visitor};

@@ -74,7 +74,9 @@ where
             let limit = *t_max;
             let mut report = |candidate: &Candidate| {
                 let nearest = best.as_ref().is_none_or(|best| candidate.precedes(best));
-                if !nearest || candidate.t > *t_max || !span.contains(candidate.t) {
+                // The test of a primitive may have rounded the ray's range.
+                let in_range = ray.ray.t_min <= candidate.t && candidate.t <= *t_max;
+                if !nearest || !in_range || !span.contains(candidate.t) {
                     return AnyHit::Ignore;
                 }
                 let bounds = list.bounds(primitive).wide().padded(ray.hit_pad);

@@ -6,8 +6,10 @@ use ombra_geometry::{Aabb, Point3, Ray, Vector3};
 const FAR: f64 = 16.0;
 
 /// How far the point of a hit found in single precision can lie from the true triangle, relative to
-/// the distance between the origin and the far side of the structure. The watertight test shears
-/// corners (6 roundings), multiplies (2), divides and scales (4): 12 units in the last place.
+/// the distance between the origin and the far side of the structure. In the watertight test, moving
+/// and shearing a corner rounds 4 times, the ray's own origin and direction have been rounded
+/// (counted as 4), and t is rounded at most 4 times, each time by half of `f32::EPSILON`; its
+/// weights are as good as exact. That makes 6, and as much again to be sure.
 const HIT_PAD: f64 = 12.0 * f32::EPSILON as f64;
 
 /// Where `HIT_PAD` stops growing, relative to the extent of the structure: what a structure that
@@ -48,14 +50,24 @@ impl Reach {
     /// computes in double precision, whose own rounding is far below the slack that this has.
     #[must_use]
     pub fn partition_pad(&self) -> f64 {
-        2.0 * HIT_PAD_LIMIT * self.extent
+        2.0 * self.hit_pad_limit()
     }
 
-    /// Whether single precision will do for this ray: the structure is near, and neither its size
-    /// nor the ray's direction is where products of singles over- or underflow.
-    fn single(&self, ray: &Ray<f64>) -> bool {
+    /// No hit that counts lies further than this from its primitive's box, whatever the ray.
+    #[must_use]
+    pub fn hit_pad_limit(&self) -> f64 {
+        HIT_PAD_LIMIT * self.extent
+    }
+
+    /// Whether single precision will do for this ray: the structure is near, the origin is a
+    /// single or near enough to one (that of an instance's ray may not be, if the instance lies far
+    /// out in its own space), and neither the structure's size nor the ray's direction is where
+    /// products of singles over- or underflow.
+    fn single(&self, ray: &Ray<f64>, farthest: f64) -> bool {
         let away = (ray.origin - self.bounds.centre()).max_norm();
+        let rounded = ray.origin.cast::<f32>().wide();
         away <= FAR * self.extent
+            && (ray.origin - rounded).max_norm() <= 0.5 * f64::from(f32::EPSILON) * farthest
             && (1e-7..=1e10).contains(&self.extent)
             && (1e-10..=1e10).contains(&ray.direction.max_norm())
     }
@@ -89,8 +101,8 @@ impl TraversalRay {
         Some(Self {
             ray: *ray,
             inverse_direction: Vector3::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z),
-            single: reach.single(ray),
-            hit_pad: (HIT_PAD * farthest).min(HIT_PAD_LIMIT * reach.extent),
+            single: reach.single(ray, farthest),
+            hit_pad: (HIT_PAD * farthest).min(reach.hit_pad_limit()),
             box_pad: 2.0 * HIT_PAD * farthest,
         })
     }

@@ -17,6 +17,8 @@
 //! Lengths are in whatever unit the scene is in; nothing here knows of metres. Angles are
 //! [`Angle`]s. Single precision unless a type says otherwise: `Point3` is `Point3<f32>`.
 
+pub mod mesh;
+pub mod sampling;
 pub mod shape;
 pub mod triangle;
 
@@ -25,7 +27,7 @@ mod angle;
 mod crossing;
 mod hit;
 mod id;
-mod mesh;
+mod polynomial;
 mod ray;
 mod transform;
 mod vector;

@@ -1,9 +1,13 @@
 //! What a program sees of the launch around it.
 
-use ombra_accel::Traversable;
-use ombra_geometry::Ray;
+use ombra_accel::{Candidate, Counter, Traversable};
+use ombra_geometry::{EdgeRule, Ray};
 
 use crate::{Exception, Pipeline, RayProgram, RayType};
+
+/// How much of a thread's stack nested traces may take, in bytes: half of what a thread of Rust has
+/// unless it is told otherwise, so that whatever one trace needs still fits beyond.
+const STACK_LIMIT: usize = 1 << 20;
 
 /// The launch as one launch index sees it: its place in it, and the way to trace rays.
 #[derive(Debug)]
@@ -58,7 +62,8 @@ impl<'a, P: Pipeline> Context<'a, P> {
     /// is called.
     ///
     /// # Errors
-    /// When the ray is not valid, when traces are nested too deep, and what the programs raise.
+    /// When the ray is not valid, when traces are nested too deep for the pipeline or for the stack,
+    /// and what the programs raise.
     #[inline]
     pub fn trace<R: RayType>(
         &mut self,
@@ -68,10 +73,30 @@ impl<'a, P: Pipeline> Context<'a, P> {
     where
         P: RayProgram<R>,
     {
+        self.trace_counted::<R>(ray, payload, &mut ())
+    }
+
+    /// The same, counting the steps of the traversal.
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace).
+    #[inline]
+    pub fn trace_counted<R: RayType>(
+        &mut self,
+        ray: &Ray,
+        payload: &mut R::Payload,
+        counter: &mut impl Counter,
+    ) -> Result<(), Exception>
+    where
+        P: RayProgram<R>,
+    {
         let pipeline = self.pipeline;
         let limit = pipeline.max_trace_depth();
         if self.depth >= limit {
             return Err(Exception::DepthExceeded { limit });
+        }
+        if self.stack_used() > STACK_LIMIT {
+            return Err(Exception::StackOverflow { depth: self.depth });
         }
         if !ray.is_valid() {
             return Err(Exception::InvalidRay {
@@ -80,9 +105,11 @@ impl<'a, P: Pipeline> Context<'a, P> {
             });
         }
         self.rays += 1;
+        let any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);
         let hit = pipeline
             .world()
-            .trace(ray, |hit| pipeline.any_hit(ray, hit, payload));
+            .search(&(*ray).into(), EdgeRule::Closed, counter, any_hit)
+            .map(|candidate| candidate.hit());
         self.depth += 1;
         let result = match &hit {
             Some(hit) => pipeline.closest_hit(self, ray, hit, payload),
@@ -90,6 +117,14 @@ impl<'a, P: Pipeline> Context<'a, P> {
         };
         self.depth -= 1;
         result
+    }
+
+    /// How far the stack has grown since ray generation began. This context lies where it began.
+    #[inline]
+    fn stack_used(&self) -> usize {
+        let here = 0_u8;
+        let address = std::ptr::from_ref(&here).addr();
+        std::ptr::from_ref(self).addr().abs_diff(address)
     }
 
     /// An element of a buffer, or the exception that there is none.

@@ -1,7 +1,7 @@
 //! How a launch is watched and stopped from outside.
 
 use std::fmt;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A part of a launch that has been done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,10 +15,19 @@ pub struct Done {
 /// How a launch is watched and stopped. The default does neither.
 #[derive(Clone, Copy, Default)]
 pub struct Control<'a> {
-    /// When this becomes true the launch stops soon: elements that were begun are finished.
+    /// When this becomes true the launch stops soon: launch indices that were begun are finished,
+    /// the elements of the others are left as they were.
     pub stop: Option<&'a AtomicBool>,
-    /// Called from any thread whenever a part is done.
+    /// Called whenever a part is done, from the thread that did it, so perhaps from several at a
+    /// time. The parts add up to what the launch did.
     pub progress: Option<&'a (dyn Fn(Done) + Sync)>,
+}
+
+impl Control<'_> {
+    #[inline]
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
 }
 
 impl fmt::Debug for Control<'_> {

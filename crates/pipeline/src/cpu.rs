@@ -1,16 +1,18 @@
 //! The device that every machine has.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::{Context, Control, Done, LaunchError, LaunchException, RayGeneration};
 
-/// How many launch indices one thread takes at a time: enough to hide the cost of taking, few
-/// enough that the threads end together.
-const CHUNK: usize = 256;
+/// How many launch indices one thread takes at a time, at most: enough to hide the cost of taking.
+const LARGEST_CHUNK: usize = 256;
+
+/// Into how many chunks a launch is cut, if it has as many indices, so that one of few but heavy
+/// elements still keeps every thread busy, and all end together.
+const CHUNKS: usize = 4096;
 
 /// Runs launches on the threads of this machine.
 #[derive(Clone, Debug)]
@@ -67,111 +69,142 @@ impl Cpu {
     }
 
     /// Runs the ray generation program once for every launch index of `size` (dimensions that are
-    /// not used are 1), each on its own element of `output`, x running fastest.
+    /// not used are 1), each on its own element of `output`, x running fastest. A launch without
+    /// indices does nothing.
     ///
-    /// The result is the same for any number of threads.
+    /// The result is the same for any number of threads, as long as what a program does to an
+    /// element depends on nothing but its launch index and the pipeline.
     ///
     /// # Errors
     /// When `output` is not as large as the launch, or a program raises an exception that the
     /// exception program does not settle; all other elements are done even then.
-    pub fn launch<P: RayGeneration>(
+    ///
+    /// # Panics
+    /// When a program panics, with what it panicked with, once the threads have come to rest. Which
+    /// other elements are done is open then; the device is as good as before.
+    pub fn launch<Entry, P: RayGeneration<Entry>>(
         &self,
         program: &P,
         size: [u32; 3],
         output: &mut [P::Output],
         control: &Control<'_>,
     ) -> Result<LaunchReport, LaunchError> {
-        let launch = size
-            .iter()
-            .try_fold(1_u64, |volume, &n| volume.checked_mul(n.into()));
-        let launch = launch.unwrap_or(u64::MAX);
-        if launch != output.len() as u64 {
+        let launch = size.map(u128::from).iter().product();
+        if launch != output.len() as u128 {
             return Err(LaunchError::BufferSize {
                 launch,
                 buffer: output.len(),
             });
         }
-        let parts: Vec<Part> = self.install(|| {
+        // It follows from the size alone, so that progress comes in the same parts on any machine.
+        let chunk = output.len().div_ceil(CHUNKS).clamp(1, LARGEST_CHUNK);
+        let part = self.install(|| {
             output
-                .par_chunks_mut(CHUNK)
+                .par_chunks_mut(chunk)
                 .enumerate()
-                .map(|(chunk, elements)| {
-                    if control
-                        .stop
-                        .is_some_and(|stop| stop.load(Ordering::Relaxed))
-                    {
-                        return Part {
-                            stopped: true,
-                            ..Part::default()
-                        };
-                    }
-                    let part = run(program, size, chunk * CHUNK, elements);
-                    if let Some(progress) = control.progress {
-                        progress(part.done());
-                    }
-                    part
-                })
-                .collect()
+                .map(|(place, elements)| run(program, size, place * chunk, elements, control))
+                .reduce(Part::default, Part::then)
         });
-        let mut report = LaunchReport::default();
-        // In the order of launch indices: the first exception is the one with the smallest.
-        for part in parts {
-            if let Some(exception) = part.exception {
-                return Err(exception.into());
-            }
-            report.rays += part.rays;
-            report.indices += part.indices;
-            report.stopped |= part.stopped;
+        match part.exception {
+            Some(exception) => Err(exception.into()),
+            None => Ok(part.report),
         }
-        Ok(report)
     }
 }
 
 /// What became of some consecutive launch indices.
 #[derive(Default)]
 struct Part {
-    rays: u64,
-    indices: u64,
-    stopped: bool,
+    report: LaunchReport,
+    /// Of those not settled, the one with the smallest launch index.
     exception: Option<LaunchException>,
 }
 
 impl Part {
-    const fn done(&self) -> Done {
-        Done {
-            indices: self.indices,
-            rays: self.rays,
+    /// This part and the one after it. Rayon keeps the order, so the first exception stays first.
+    fn then(self, next: Self) -> Self {
+        Self {
+            report: LaunchReport {
+                rays: self.report.rays + next.report.rays,
+                indices: self.report.indices + next.report.indices,
+                stopped: self.report.stopped | next.report.stopped,
+            },
+            exception: self.exception.or(next.exception),
         }
     }
 }
 
-fn run<P: RayGeneration>(
+fn run<Entry, P: RayGeneration<Entry>>(
     program: &P,
     size: [u32; 3],
     first: usize,
     elements: &mut [P::Output],
+    control: &Control<'_>,
 ) -> Part {
     let mut part = Part::default();
-    let [width, height, _] = size.map(u64::from);
-    for (offset, element) in elements.iter_mut().enumerate() {
-        let linear = (first + offset) as u64;
-        let index = [
-            linear % width,
-            linear / width % height,
-            linear / (width * height),
-        ]
-        .map(|i| i as u32);
+    let mut index = launch_index(first, size);
+    for element in elements {
+        if control.is_stopped() {
+            part.report.stopped = true;
+            break;
+        }
         let mut cx = Context::new(program, index, size);
         if let Err(exception) = program.generate(&mut cx, element) {
             let raised = program.exception(LaunchException { index, exception }, element);
-            if let Err(unsettled) = raised
-                && part.exception.is_none()
-            {
-                part.exception = Some(unsettled);
-            }
+            part.exception = part.exception.or(raised.err());
         }
-        part.rays += cx.rays();
-        part.indices += 1;
+        part.report.rays += cx.rays();
+        part.report.indices += 1;
+        advance(&mut index, size);
+    }
+    if let Some(progress) = control.progress
+        && part.report.indices > 0
+    {
+        progress(Done {
+            indices: part.report.indices,
+            rays: part.report.rays,
+        });
     }
     part
+}
+
+/// The launch index of an element of the output buffer. No dimension may be 0.
+fn launch_index(element: usize, [width, height, _]: [u32; 3]) -> [u32; 3] {
+    let (width, height) = (width as usize, height as usize);
+    let (row, layer) = (element / width, element / width / height);
+    [element % width, row % height, layer].map(|i| i as u32)
+}
+
+/// Goes on to the next launch index.
+#[inline]
+const fn advance([x, y, z]: &mut [u32; 3], [width, height, _]: [u32; 3]) {
+    *x += 1;
+    if *x == width {
+        *x = 0;
+        *y += 1;
+        if *y == height {
+            *y = 0;
+            *z += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advancing_and_dividing_agree_on_the_launch_index() {
+        for size in [[7, 3, 2], [1, 1, 9], [5, 1, 1], [1, 4, 3]] {
+            let mut index = [0, 0, 0];
+            for element in 0..size.iter().product::<u32>() as usize {
+                assert_eq!(
+                    index,
+                    launch_index(element, size),
+                    "element {element} of {size:?}"
+                );
+                advance(&mut index, size);
+            }
+        }
+    }
 }

@@ -22,6 +22,14 @@ pub enum Exception {
         /// How deep the pipeline allows.
         limit: u32,
     },
+    /// Traces were nested deeper than the stack of a thread allows, although not deeper than the
+    /// pipeline does. At what depth depends on what the compiler made of the programs, not on the
+    /// number of threads.
+    #[error("the stack is used up by traces nested {depth} deep")]
+    StackOverflow {
+        /// How deep traces were nested.
+        depth: u32,
+    },
     /// A buffer has no such element.
     #[error("index {index} is out of range: the buffer has {length} elements")]
     IndexOutOfRange {
@@ -38,6 +46,17 @@ pub enum Exception {
         /// What happened.
         message: Cow<'static, str>,
     },
+}
+
+impl Exception {
+    /// One of the program's own.
+    #[must_use]
+    pub fn user(code: u32, message: impl Into<Cow<'static, str>>) -> Self {
+        Self::User {
+            code,
+            message: message.into(),
+        }
+    }
 }
 
 /// An exception and the launch index where it happened.
@@ -62,8 +81,8 @@ pub enum LaunchError {
     /// The output buffer does not have one element for each launch index.
     #[error("a launch of {launch} indices needs a buffer of as many elements, not {buffer}")]
     BufferSize {
-        /// How many launch indices there are.
-        launch: u64,
+        /// How many launch indices there are: a product of three 32-bit numbers.
+        launch: u128,
         /// How many elements there are.
         buffer: usize,
     },

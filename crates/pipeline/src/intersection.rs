@@ -9,24 +9,37 @@ use crate::AnyHit;
 
 /// The intersection program of primitives of your own: how many there are, the box around each,
 /// and where a ray crosses one.
+///
+/// A pipeline is traced against them once they are under a structure:
+/// `Accel::build(Custom(primitives), StructureKind::default())`.
 pub trait Intersection: Send + Sync {
-    /// How many primitives there are.
+    /// How many primitives there are: at most 2³² − 1.
     fn count(&self) -> usize;
 
-    /// The box around one. A crossing outside of it does not count.
+    /// The box around one. A crossing outside of it does not count. It may be unbounded; a
+    /// primitive whose box is empty or NaN is never hit.
     fn bounds(&self, primitive: u32) -> Aabb;
 
-    /// Reports each crossing of the ray with one primitive whose t is in `[t_min, t_max]`; `u` and
-    /// `v` are whatever the programs of the pipeline want to find in the hit.
+    /// Reports each crossing of the ray with one primitive, in any order; `u` and `v` are whatever
+    /// the programs of the pipeline want to find in the hit.
+    ///
+    /// A crossing whose t is not in the ray's `[t_min, t_max]` is reported in vain, so both roots
+    /// of a quadratic may be reported as they are; `t_max` is the nearest hit so far and may save
+    /// work.
     ///
     /// # Errors
-    /// What `report` breaks off with is to be passed on: use `report(..)?`.
+    /// `Break` says that nothing else needs to be reported: use `report(..)?`.
     fn intersect(
         &self,
         ray: &Ray<f64>,
         primitive: u32,
-        report: &mut dyn FnMut(Crossing) -> ControlFlow<()>,
+        report: impl FnMut(Crossing) -> ControlFlow<()>,
     ) -> ControlFlow<()>;
+
+    /// Bytes held on the heap, for statistics.
+    fn bytes(&self) -> usize {
+        0
+    }
 }
 
 /// Puts an [`Intersection`] under an acceleration structure.
@@ -40,10 +53,12 @@ impl<I: Intersection> Primitives for Custom<I> {
         self.0.count()
     }
 
+    #[inline]
     fn bounds(&self, primitive: u32) -> Aabb {
         self.0.bounds(primitive)
     }
 
+    #[inline]
     fn prepare(&self, _ray: &TraversalRay, _rule: EdgeRule) -> Self::Prepared {}
 
     #[inline]
@@ -58,17 +73,22 @@ impl<I: Intersection> Primitives for Custom<I> {
     ) -> ControlFlow<()> {
         counter.test();
         let ray = Ray { t_max, ..ray.ray };
-        self.0.intersect(
-            &ray,
-            primitive,
-            &mut |crossing| match report(&Candidate::new(crossing, primitive)) {
-                AnyHit::Terminate => ControlFlow::Break(()),
-                AnyHit::Accept | AnyHit::Ignore => ControlFlow::Continue(()),
-            },
-        )
+        // Kept here as well, so that a program that does not heed `Break` cannot go on past it.
+        let mut flow = ControlFlow::Continue(());
+        let _ = self.0.intersect(&ray, primitive, |crossing| {
+            let within = ray.t_min <= crossing.t && crossing.t <= ray.t_max;
+            if flow.is_continue()
+                && within
+                && report(&Candidate::new(crossing, primitive)) == AnyHit::Terminate
+            {
+                flow = ControlFlow::Break(());
+            }
+            flow
+        });
+        flow
     }
 
     fn bytes(&self) -> usize {
-        0
+        self.0.bytes()
     }
 }

@@ -7,15 +7,22 @@
 //! | OptiX | here |
 //! |---|---|
 //! | context | the type that implements [`Pipeline`]: the data that programs share |
-//! | ray type, payload | [`RayType`] and its `Payload` |
-//! | ray generation program | [`RayGeneration::generate`] |
+//! | ray type, payload (`rtPayload`, per-ray data) | [`RayType`] and its `Payload` |
+//! | entry point, ray generation program | [`RayGeneration`] and its `Entry`, [`RayGeneration::generate`] |
 //! | exception program | [`RayGeneration::exception`] |
 //! | closest hit, any hit, miss program | the methods of [`RayProgram`] |
 //! | intersection program, bounding box program | [`Intersection`], placed by [`Custom`] |
+//! | top object | [`Pipeline::world`] |
+//! | acceleration `"Lbvh"`, traverser `"Bvh"` | [`StructureKind`](ombra_accel::StructureKind), parsed from a name; these two names are names there, too |
 //! | `rtTrace` | [`Context::trace`] |
 //! | `rtIgnoreIntersection`, `rtTerminateRay` | [`AnyHit::Ignore`], [`AnyHit::Terminate`] |
+//! | `rtReportIntersection` | the `report` of [`Intersection::intersect`] |
+//! | `rtThrow`, `rtGetExceptionCode` | `return Err(`[`Exception::user`]`(..))`, `match` on [`Exception`] |
 //! | `rtLaunchIndex` | [`Context::launch_index`] |
+//! | maximum trace depth, stack size | [`Pipeline::max_trace_depth`], [`Exception::StackOverflow`] |
 //! | buffer, launch | a slice, [`Cpu::launch`] |
+//!
+//! The rules, with the lecture's program beside ours, are on one page: `docs/programs.md`.
 //!
 //! ```
 //! use ombra_accel::{Accel, AnyHit, Shapes, StructureKind};

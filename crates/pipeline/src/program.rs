@@ -24,24 +24,39 @@ pub trait Pipeline: Sync + Sized {
 
     /// How deep [`Context::trace`] may be nested: 1 allows rays from ray generation only. One more
     /// is [`Exception::DepthExceeded`].
+    ///
+    /// Nested traces lie on the stack of a thread, like any recursion in Rust; if that does not
+    /// last, the exception is [`Exception::StackOverflow`]. It lasts for a megabyte: a thousand
+    /// levels of programs that keep a kilobyte each.
     fn max_trace_depth(&self) -> u32 {
         32
     }
 }
 
 /// The programs of one ray type. Each has a default that does nothing.
+///
+/// # What is promised
+/// For one [`Context::trace`]: the any-hit program is asked of hits first; then either the
+/// closest-hit program is called, once, or the miss program is, once, and no other.
 pub trait RayProgram<R: RayType>: Pipeline {
     /// Asked of each hit that may still count, in no promised order, each crossing at most once.
+    ///
+    /// Once a hit was accepted, farther ones are not shown any more; which of them were shown
+    /// before depends on the structure. So a payload that every structure shall leave the same must
+    /// be made of what does not depend on that: of every crossing, by ignoring all of them (in an
+    /// order that is not promised), or of whether there is one, by terminating at the first.
     #[inline]
     fn any_hit(&self, ray: &Ray, hit: &Hit, payload: &mut R::Payload) -> AnyHit {
         let _ = (ray, hit, payload);
         AnyHit::Accept
     }
 
-    /// Called with the nearest hit that was accepted.
+    /// Called with the nearest hit that was accepted or, if the any-hit program terminated the
+    /// ray, with the one that it terminated at.
     ///
     /// # Errors
-    /// Whatever the program finds exceptional; it ends this launch index.
+    /// Whatever the program finds exceptional. It comes out of the [`Context::trace`] that led
+    /// here, where the caller passes it on or settles it.
     #[inline]
     fn closest_hit(
         &self,
@@ -57,7 +72,7 @@ pub trait RayProgram<R: RayType>: Pipeline {
     /// Called when no hit was accepted.
     ///
     /// # Errors
-    /// Whatever the program finds exceptional; it ends this launch index.
+    /// As those of [`closest_hit`](Self::closest_hit).
     #[inline]
     fn miss(
         &self,
@@ -71,7 +86,11 @@ pub trait RayProgram<R: RayType>: Pipeline {
 }
 
 /// Where a launch begins, once for every launch index.
-pub trait RayGeneration: Pipeline {
+///
+/// A pipeline with several entry points names each with a type of its own, as ray types are named:
+/// `impl RayGeneration<Preview> for City`, launched by `cpu.launch::<Preview, _>(..)`. One entry
+/// point needs no name.
+pub trait RayGeneration<Entry = ()>: Pipeline {
     /// One element of the output buffer.
     type Output: Send;
 

@@ -50,7 +50,11 @@ impl Rgb {
     #[must_use]
     pub fn to_srgb(self) -> [f32; 3] {
         self.to_array().map(|linear| {
-            let linear = if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0) };
+            let linear = if linear.is_nan() {
+                0.0
+            } else {
+                linear.clamp(0.0, 1.0)
+            };
             if linear <= 0.003_130_8 {
                 linear * 12.92
             } else {

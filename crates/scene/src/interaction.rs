@@ -1,7 +1,7 @@
 //! A hit made into a place, and the only function that moves a ray off a surface.
 
 use ombra_accel::Geometry;
-use ombra_geometry::shape::Surface;
+use ombra_geometry::shape::{Shape, Surface};
 use ombra_geometry::{Hit, Normal3, Object, Point3, Ray, Transform, TriangleMesh, Vector3, World};
 
 /// A place on a surface, in the world's space.
@@ -20,15 +20,28 @@ pub struct Interaction {
     pub uv: [f32; 2],
     /// Back along the ray that came here, unit length.
     pub wo: Vector3,
-    /// How far `point` may be from the true surface.
+    /// How far `point` may be from the surface as the next ray's test sees it.
     error: f32,
 }
 
-/// The rounding of a computed point, relative to the numbers that went into it: the sum of three
-/// products (Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 3.1), and the
-/// same again for moving it into the world and for the intersection of the next ray with the
-/// surface that it leaves.
-const POINT_ERROR: f32 = 16.0 * f32::EPSILON;
+// What rounding does to a place, as multiples of numbers that went into it. One rounding moves a
+// coordinate by half of `f32::EPSILON` at most, and so a point by √3 times that.
+
+/// Of the world's coordinates: the place is rounded once, the origin that stands off it once more.
+const WORLD_ROUNDING: f32 = 2.0 * f32::EPSILON;
+
+/// Of the object's coordinates: the next ray's origin is rounded when a structure works in single
+/// precision.
+const OBJECT_ROUNDING: f32 = f32::EPSILON;
+
+/// Of the extent of the triangle: differences, shear, products and quotient of the next ray's test.
+const TEST_ROUNDING: f32 = 8.0 * f32::EPSILON;
+
+/// Of the way that the ray came: a hit's t is rounded, so the place slides along the ray.
+const SLIDE_ROUNDING: f32 = f32::EPSILON;
+
+/// How much of the way to a target is left out at its end.
+const TARGET_ROUNDING: f32 = 16.0 * f32::EPSILON;
 
 impl Interaction {
     pub(crate) fn new(
@@ -40,23 +53,15 @@ impl Interaction {
         let wo = -ray.direction.normalized().unwrap_or(ray.direction);
         let local = match geometry {
             Geometry::Mesh(mesh) => Local::of_mesh(mesh.mesh(), hit),
-            Geometry::Shapes(shapes) => {
-                let wide: Ray<f64> = (*ray).into();
-                let on_ray = wide.at(f64::from(hit.t));
-                let point = world_from_object.inverse().point(on_ray);
-                let surface = shapes.0[hit.primitive.index()].surface_at(point);
-                // `t` was rounded, so the point slides along the ray by as much.
-                let slide = ray.direction.length() * hit.t;
-                Local {
-                    point: point.cast(),
-                    normal: surface.normal.cast(),
-                    shading_normal: surface.normal.cast(),
-                    uv: [hit.u, hit.v],
-                    magnitude: slide.max(point.to_vector().max_norm() as f32),
-                }
-            }
+            Geometry::Shapes(shapes) => Local::of_shape(
+                &shapes.0[hit.primitive.index()],
+                ray,
+                hit,
+                world_from_object,
+            ),
         };
-        let point = world_from_object.point(local.point);
+        let point: Point3 = world_from_object.point(local.point).cast();
+        let object_point: Point3 = local.point.cast();
         let unit = |n: Normal3| {
             world_from_object
                 .normal(n)
@@ -64,24 +69,23 @@ impl Interaction {
                 .unwrap_or(wo.to_normal())
         };
         let normal = unit(local.normal);
-        let shading_normal = unit(local.shading_normal);
-        let shading_normal = if shading_normal.dot(normal.to_vector()) < 0.0 {
-            -shading_normal
-        } else {
-            shading_normal
+        let shading_normal = match local.interpolated_normal.map(unit) {
+            None => normal,
+            Some(other) if other.dot(normal.to_vector()) < 0.0 => -other,
+            Some(same) => same,
         };
-        let magnitude = point
-            .to_vector()
-            .max_norm()
-            .max(local.magnitude * growth(world_from_object));
+        let in_object = OBJECT_ROUNDING * object_point.to_vector().max_norm()
+            + TEST_ROUNDING * local.test_extent;
         Self {
             point,
-            object_point: local.point,
+            object_point,
             normal,
             shading_normal,
             uv: local.uv,
             wo,
-            error: POINT_ERROR * magnitude,
+            error: WORLD_ROUNDING * point.to_vector().max_norm()
+                + in_object * growth(world_from_object)
+                + local.slide,
         }
     }
 
@@ -100,6 +104,18 @@ impl Interaction {
         Ray::new(self.off_surface(direction), direction)
     }
 
+    /// A ray from here that ends before a distance, which may be infinite, in units of the length
+    /// of `direction`: it meets neither the surface it starts from nor, were there one, a surface
+    /// at its end.
+    #[must_use]
+    #[inline]
+    pub fn spawn_within(&self, direction: Vector3, distance: f32) -> Ray {
+        Ray {
+            t_max: distance * (1.0 - TARGET_ROUNDING),
+            ..self.spawn(direction)
+        }
+    }
+
     /// A ray from here to a point, t in `[0, 1]`, that meets neither the surface it starts from
     /// nor, were there one, a surface at its end.
     #[must_use]
@@ -107,7 +123,7 @@ impl Interaction {
     pub fn spawn_to(&self, target: Point3) -> Ray {
         let origin = self.off_surface(target - self.point);
         Ray {
-            t_max: 1.0 - POINT_ERROR,
+            t_max: 1.0 - TARGET_ROUNDING,
             ..Ray::between(origin, target)
         }
     }
@@ -127,46 +143,62 @@ fn growth(transform: &Transform<Object, World>) -> f32 {
 
 /// What is known in the space of the object.
 struct Local {
-    point: Point3,
+    point: Point3<f64>,
     normal: Normal3,
-    shading_normal: Normal3,
+    /// Where the mesh has normals.
+    interpolated_normal: Option<Normal3>,
     uv: [f32; 2],
-    /// The largest number that went into `point`.
-    magnitude: f32,
+    /// The extent of what the next ray's test computes with in single precision.
+    test_extent: f32,
+    /// How far the point may have slid along the ray, in the space of the world.
+    slide: f32,
 }
 
 impl Local {
     fn of_mesh(mesh: &TriangleMesh, hit: &Hit) -> Self {
         let triangle = hit.primitive.index();
-        let corners @ [a, b, c] = mesh.corners(triangle);
+        let [a, b, c] = mesh.corners(triangle);
+        let (u, v) = (f64::from(hit.u), f64::from(hit.v));
+        let (ab, ac) = (b.wide() - a.wide(), c.wide() - a.wide());
+        let normal = ab.cross(ac).normalized().unwrap_or(Vector3::Z.wide());
         let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
-        let blend = |values: [Vector3; 3]| {
-            values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]
-        };
-        let normal = (b - a)
-            .cross(c - a)
-            .normalized()
-            .unwrap_or(Vector3::Z)
-            .to_normal();
         let ids = mesh.triangles()[triangle].map(|i| i as usize);
-        let shading_normal = mesh
-            .normals()
-            .and_then(|normals| blend(ids.map(|i| normals[i].to_vector())).normalized())
-            .map_or(normal, Vector3::to_normal);
+        let interpolated_normal = mesh.normals().and_then(|normals| {
+            let [a, b, c] = ids.map(|i| normals[i]);
+            (a * weights[0] + b * weights[1] + c * weights[2]).normalized()
+        });
         let uv = mesh.uvs().map_or([hit.u, hit.v], |uvs| {
             let corner = ids.map(|i| uvs[i]);
             std::array::from_fn(|k| (0..3).map(|i| corner[i][k] * weights[i]).sum())
         });
-        let magnitude = corners
-            .iter()
-            .map(|p| p.to_vector().max_norm())
-            .fold(0.0, f32::max);
         Self {
-            point: Point3::ORIGIN + blend(corners.map(Point3::to_vector)),
-            normal,
-            shading_normal,
+            // In double precision the point lies on the triangle, whatever the rounding of u and v.
+            point: a.wide() + ab * u + ac * v,
+            normal: normal.to_normal().cast(),
+            interpolated_normal,
             uv,
-            magnitude,
+            test_extent: ab.max_norm().max(ac.max_norm()) as f32,
+            slide: 0.0,
+        }
+    }
+
+    fn of_shape(
+        shape: &Shape,
+        ray: &Ray,
+        hit: &Hit,
+        world_from_object: &Transform<Object, World>,
+    ) -> Self {
+        let wide: Ray<f64> = (*ray).into();
+        let on_ray = wide.at(f64::from(hit.t));
+        let point = world_from_object.inverse().point(on_ray);
+        Self {
+            point,
+            normal: shape.surface_at(point).normal.cast(),
+            interpolated_normal: None,
+            uv: [hit.u, hit.v],
+            // Shapes are tested in double precision.
+            test_extent: 0.0,
+            slide: SLIDE_ROUNDING * ray.direction.length() * hit.t,
         }
     }
 }

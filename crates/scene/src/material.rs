@@ -35,17 +35,20 @@ pub struct Material {
     pub shininess: f32,
     /// How much of what is seen in the mirror direction is added, per colour, 0 to 1.
     pub reflection: Rgb,
-    /// How much of what is seen through the surface is added, per colour, 0 to 1. Shadow rays
-    /// pass, dimmed by this.
+    /// How much of what is seen through the surface is added, per colour, 0 to 1. A shadow ray
+    /// passes straight through, dimmed by this at every surface, whatever the angle.
+    ///
+    /// Where light does not get through it is mirrored instead: at total internal reflection all of
+    /// this part, and with `fresnel` the share that the angle decides. That adds to `reflection`.
     pub transmission: Rgb,
     /// The index of refraction on the inner side of the surface, over that on the outer side; 1 does
     /// not bend light. Above 0.
     pub index_of_refraction: f32,
-    /// Whether the angle decides between mirror and transparency, after Fresnel: what is not
-    /// transmitted is reflected. Otherwise the two parts are as given, whatever the angle.
+    /// Whether the angle decides how much of the transparent part is mirrored, after Fresnel, as on
+    /// real glass and water. Otherwise all of it goes through, short of total internal reflection.
     pub fresnel: bool,
     /// Light of its own. A surface with any is a light source that is seen as such: it shows this
-    /// and nothing else.
+    /// and nothing else, and it hides no light from what is behind it.
     pub emission: Rgb,
 }
 
@@ -73,6 +76,41 @@ impl Material {
         Self {
             name: name.into(),
             diffuse: Texture::Constant(diffuse),
+            ..Self::default()
+        }
+    }
+
+    /// A mirror: nothing but what it reflects.
+    #[must_use]
+    pub fn mirror(name: impl Into<String>, reflection: Rgb) -> Self {
+        Self {
+            name: name.into(),
+            diffuse: Texture::Constant(Rgb::BLACK),
+            reflection,
+            ..Self::default()
+        }
+    }
+
+    /// Clear glass, water or the like: the angle decides what is mirrored and what goes through.
+    #[must_use]
+    pub fn glass(name: impl Into<String>, index_of_refraction: f32) -> Self {
+        Self {
+            name: name.into(),
+            diffuse: Texture::Constant(Rgb::BLACK),
+            transmission: Rgb::WHITE,
+            index_of_refraction,
+            fresnel: true,
+            ..Self::default()
+        }
+    }
+
+    /// A light source of one colour.
+    #[must_use]
+    pub fn luminous(name: impl Into<String>, emission: Rgb) -> Self {
+        Self {
+            name: name.into(),
+            diffuse: Texture::Constant(Rgb::BLACK),
+            emission,
             ..Self::default()
         }
     }

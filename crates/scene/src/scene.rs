@@ -1,7 +1,7 @@
 //! The description of a scene.
 
 use ombra_accel::Geometry;
-use ombra_geometry::{GeometryId, Object as ObjectSpace, Transform, World};
+use ombra_geometry::{GeometryId, Object as ObjectSpace, Transform, Vector3, World};
 
 use crate::{Camera, Light, Material, MaterialId, Rgb};
 
@@ -19,7 +19,7 @@ pub struct Object {
 }
 
 /// Everything there is to be seen, as a description.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// The geometries that objects place.
     pub geometries: Vec<Geometry>,
@@ -35,6 +35,24 @@ pub struct Scene {
     pub background: Rgb,
     /// The camera, if the description names one.
     pub camera: Option<Camera>,
+    /// Which way is up, for a camera and lights that have to be made up. Of any length but 0.
+    pub up: Vector3,
+}
+
+impl Default for Scene {
+    /// Nothing, in the dark.
+    fn default() -> Self {
+        Self {
+            geometries: Vec::new(),
+            materials: Vec::new(),
+            objects: Vec::new(),
+            lights: Vec::new(),
+            ambient: Rgb::BLACK,
+            background: Rgb::BLACK,
+            camera: None,
+            up: Vector3::Y,
+        }
+    }
 }
 
 /// A description that does not fit together.
@@ -72,15 +90,28 @@ impl Scene {
         material: Material,
         world_from_object: Transform<ObjectSpace, World>,
     ) {
-        let object = Object {
-            name: name.into(),
-            geometry: GeometryId(self.geometries.len() as u32),
-            material: MaterialId(self.materials.len() as u32),
-            world_from_object,
-        };
-        self.geometries.push(geometry);
         self.materials.push(material);
-        self.objects.push(object);
+        let material = MaterialId(self.materials.len() as u32 - 1);
+        self.place(name, geometry, material, world_from_object);
+    }
+
+    /// Adds an object with a geometry of its own and one of the materials.
+    pub fn place(
+        &mut self,
+        name: impl Into<String>,
+        geometry: Geometry,
+        material: MaterialId,
+        world_from_object: Transform<ObjectSpace, World>,
+    ) {
+        let name = name.into();
+        self.geometries.push(geometry);
+        let geometry = GeometryId(self.geometries.len() as u32 - 1);
+        self.objects.push(Object {
+            name,
+            geometry,
+            material,
+            world_from_object,
+        });
     }
 
     /// Checks that every object names a geometry and a material that is there.

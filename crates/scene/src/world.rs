@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use ombra_accel::{
-    Accel, AnyHit, Candidate, Counter, Geometry, Instance, Instances, StructureKind, Traversable,
+    Accel, AnyHit, Candidate, Counter, Geometry, Instance, Instances, Primitives as _,
+    StructureKind, Traversable,
 };
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 
@@ -15,6 +16,7 @@ use crate::{Interaction, Material, Scene, SceneError};
 pub struct World {
     scene: Scene,
     accel: Accel<Instances<Geometry>>,
+    finite_bounds: Aabb,
 }
 
 impl World {
@@ -38,7 +40,12 @@ impl World {
             })
             .collect();
         let accel = Accel::build(Instances::new(geometries, instances), kind);
-        Ok(Self { scene, accel })
+        let finite_bounds = finite_bounds(&scene);
+        Ok(Self {
+            scene,
+            accel,
+            finite_bounds,
+        })
     }
 
     /// The description.
@@ -69,12 +76,48 @@ impl World {
         Interaction::new(ray, hit, geometry, &object.world_from_object)
     }
 
+    /// The box around everything that has an end: endless shapes, such as planes, are left out.
+    /// Empty if there is nothing else.
+    #[must_use]
+    pub const fn finite_bounds(&self) -> Aabb {
+        self.finite_bounds
+    }
+
+    /// How many primitives rays can meet, those of a geometry once for each object that places it.
+    #[must_use]
+    pub fn primitives(&self) -> usize {
+        let objects = self.scene.objects.iter();
+        objects
+            .map(|object| self.scene.geometries[object.geometry.index()].len())
+            .sum()
+    }
+
     /// Bytes of the structures alone.
     #[must_use]
     pub fn structure_bytes(&self) -> usize {
         let lower = self.accel.primitives().geometries().iter();
         self.accel.structure_bytes() + lower.map(|g| g.structure_bytes()).sum::<usize>()
     }
+}
+
+fn finite_bounds(scene: &Scene) -> Aabb {
+    let of_geometry: Vec<Aabb> = scene
+        .geometries
+        .iter()
+        .map(|geometry| {
+            (0..geometry.len() as u32)
+                .map(|primitive| geometry.bounds(primitive))
+                .filter(Aabb::is_finite)
+                .fold(Aabb::EMPTY, Aabb::union)
+        })
+        .collect();
+    let placed = scene.objects.iter().map(|object| {
+        let bounds = &of_geometry[object.geometry.index()];
+        object.world_from_object.aabb(bounds)
+    });
+    placed
+        .filter(Aabb::is_finite)
+        .fold(Aabb::EMPTY, Aabb::union)
 }
 
 impl Traversable for World {

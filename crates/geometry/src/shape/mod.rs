@@ -5,12 +5,48 @@
 //!
 //! Parameters are single precision, arithmetic is double precision, so that a sphere seen from a
 //! thousand radii away is still round.
+//!
+//! [`Sphere`] and [`Triangle`] are plain data: any numbers will do, a degenerate one is never hit,
+//! and [`Shape::validate`] says what is wrong with it. The others work something out once, and their
+//! constructors refuse what makes no shape. Both say so with a [`ShapeError`].
+//!
+//! A closed shape has an even number of crossings with a line, unless the line touches it: at a rim,
+//! an edge or a corner it is entered once and left once.
 
+mod cone;
+mod cuboid;
+mod cylinder;
+mod disk;
+mod error;
+mod frame;
+mod frustum;
+mod interval;
+mod oriented_box;
+mod plane;
+mod polyhedron;
+mod polyhedron_face;
+mod rectangle;
+mod revolved;
+mod slabs;
 mod sphere;
+mod torus;
+mod triangle;
 
 use crate::{Aabb, Crossings, Normal3, Point3, Ray};
 
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use disk::Disk;
+pub use error::ShapeError;
+pub use frustum::{Frustum, FrustumView};
+pub use oriented_box::OrientedBox;
+pub use plane::Plane;
+pub use polyhedron::{ConvexPolyhedron, HalfSpace};
+pub use rectangle::Rectangle;
 pub use sphere::Sphere;
+pub use torus::Torus;
+pub use triangle::Triangle;
 
 /// What every shape answers.
 pub trait Surface {
@@ -53,21 +89,97 @@ pub struct SurfaceSample {
     pub pdf: f64,
 }
 
-/// Every shape there is.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Shape {
-    /// See [`Sphere`].
-    Sphere(Sphere),
+/// What the ends of a cylinder or a cone are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Ends {
+    /// Flat disks: the shape is closed.
+    #[default]
+    Capped,
+    /// Nothing: one looks into the shape.
+    Open,
 }
 
-/// Asks the shape inside.
-macro_rules! each {
-    ($shape:expr, $inner:ident => $answer:expr) => {
-        match $shape {
-            Shape::Sphere($inner) => $answer,
+/// Answers as the shape inside does, for a shape that is a special case of another one.
+macro_rules! delegate_surface {
+    ($shape:ident) => {
+        impl $crate::shape::Surface for $shape {
+            #[inline]
+            fn crossings(&self, ray: &$crate::Ray<f64>) -> $crate::Crossings {
+                self.0.crossings(ray)
+            }
+
+            fn bounds(&self) -> $crate::Aabb {
+                self.0.bounds()
+            }
+
+            fn surface_at(&self, point: $crate::Point3<f64>) -> $crate::shape::SurfacePoint {
+                self.0.surface_at(point)
+            }
+
+            fn area(&self) -> f64 {
+                self.0.area()
+            }
+
+            fn sample(&self, xi: [f32; 2]) -> Option<$crate::shape::SurfaceSample> {
+                self.0.sample(xi)
+            }
         }
     };
+}
+use delegate_surface;
+
+/// Every shape there is, from one list.
+macro_rules! shapes {
+    ($($name:ident),*) => {
+        /// Every shape there is.
+        #[derive(Clone, Debug, PartialEq)]
+        #[non_exhaustive]
+        pub enum Shape {
+            $(#[doc = concat!("See [`", stringify!($name), "`].")] $name($name),)*
+        }
+
+        /// Asks the shape inside.
+        macro_rules! each {
+            ($shape:expr, $inner:ident => $answer:expr) => {
+                match $shape { $(Shape::$name($inner) => $answer,)* }
+            };
+        }
+
+        $(impl From<$name> for Shape {
+            fn from(shape: $name) -> Self {
+                Self::$name(shape)
+            }
+        })*
+    };
+}
+
+shapes!(
+    Sphere,
+    Triangle,
+    Plane,
+    Disk,
+    Rectangle,
+    Cylinder,
+    Cone,
+    Cuboid,
+    OrientedBox,
+    Frustum,
+    ConvexPolyhedron,
+    Torus
+);
+
+impl Shape {
+    /// Whether the shape can be hit.
+    ///
+    /// # Errors
+    /// When it is a degenerate sphere or triangle; other shapes cannot be made degenerate.
+    pub fn validate(&self) -> Result<(), ShapeError> {
+        match self {
+            Self::Sphere(sphere) => sphere.validate(),
+            Self::Triangle(triangle) => triangle.validate(),
+            _ => Ok(()),
+        }
+    }
 }
 
 impl Surface for Shape {
@@ -90,11 +202,5 @@ impl Surface for Shape {
 
     fn sample(&self, xi: [f32; 2]) -> Option<SurfaceSample> {
         each!(self, shape => shape.sample(xi))
-    }
-}
-
-impl From<Sphere> for Shape {
-    fn from(shape: Sphere) -> Self {
-        Self::Sphere(shape)
     }
 }

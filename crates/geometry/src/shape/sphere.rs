@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 
+use super::error::{ShapeError, finite, positive};
+use super::frame::{report, turn, unit};
 use super::{Surface, SurfacePoint, SurfaceSample};
-use crate::{Aabb, Crossing, Crossings, Point3, Ray, Vector3};
+use crate::{Aabb, Crossings, Point3, Ray, Vector3, sampling};
 
 /// A sphere.
 ///
@@ -23,11 +25,18 @@ impl Sphere {
         Self { centre, radius }
     }
 
+    /// Whether it can be hit.
+    ///
+    /// # Errors
+    /// When a number is not finite, or the radius is not above 0.
+    pub fn validate(&self) -> Result<(), ShapeError> {
+        finite("centre", self.centre.is_finite())?;
+        positive("radius", self.radius).map(drop)
+    }
+
     fn uv(direction: Vector3<f64>) -> [f32; 2] {
-        let around = direction.y.atan2(direction.x) / (2.0 * PI);
-        let around = if around < 0.0 { around + 1.0 } else { around };
         let up = direction.z.clamp(-1.0, 1.0).asin() / PI + 0.5;
-        [around as f32, up as f32]
+        [turn(direction.x, direction.y), unit(up)]
     }
 }
 
@@ -55,25 +64,17 @@ impl Surface for Sphere {
         // q is 0 only where the centre is nearest at t = 0 and the line touches there.
         let (t0, t1) = if q == 0.0 { (0.0, 0.0) } else { (c / q, q / a) };
         let (near, far) = if t0 <= t1 { (t0, t1) } else { (t1, t0) };
-        for t in if near == far {
-            [Some(near), None]
-        } else {
-            [Some(near), Some(far)]
-        }
-        .into_iter()
-        .flatten()
-        {
-            if ray.t_min <= t && t <= ray.t_max {
-                let outward = (ray.at(t) - self.centre.wide()) / radius;
-                let [u, v] = Self::uv(outward);
-                found.push(Crossing { t, u, v });
-            }
+        let twice = (far > near).then_some(far);
+        for t in [near].into_iter().chain(twice) {
+            report(&mut found, ray, t, || {
+                Self::uv((ray.at(t) - self.centre.wide()) / radius)
+            });
         }
         found
     }
 
     fn bounds(&self) -> Aabb {
-        if !(self.radius > 0.0) {
+        if self.validate().is_err() {
             return Aabb::EMPTY;
         }
         let centre = self.centre.wide();
@@ -94,19 +95,43 @@ impl Surface for Sphere {
         4.0 * PI * f64::from(self.radius) * f64::from(self.radius)
     }
 
-    fn sample(&self, [x0, x1]: [f32; 2]) -> Option<SurfaceSample> {
-        if !(self.radius > 0.0) {
-            return None;
-        }
-        // Archimedes: the height of a uniform point on a sphere is uniform.
-        let z = 1.0 - 2.0 * f64::from(x0);
-        let ring = (1.0 - z * z).max(0.0).sqrt();
-        let (sin, cos) = (2.0 * PI * f64::from(x1)).sin_cos();
-        let outward = Vector3::new(ring * cos, ring * sin, z);
+    fn sample(&self, xi: [f32; 2]) -> Option<SurfaceSample> {
+        self.validate().ok()?;
+        let outward = sampling::uniform_sphere(xi);
         Some(SurfaceSample {
             point: self.centre.wide() + outward * f64::from(self.radius),
             normal: outward.to_normal(),
             pdf: 1.0 / self.area(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_degenerate_sphere_is_refused_and_never_hit() {
+        let at = |centre, radius| Sphere::new(centre, radius);
+        let nan = Point3::new(f32::NAN, 0.0, 0.0);
+        for bad in [
+            at(Point3::ORIGIN, 0.0),
+            at(Point3::ORIGIN, -1.0),
+            at(Point3::ORIGIN, f32::NAN),
+            at(nan, 1.0),
+        ] {
+            assert!(bad.validate().is_err());
+            let through = Ray::new(Point3::new(-2.0, 0.0, 0.0), Vector3::new(1.0, 0.0, 0.0));
+            assert!(bad.crossings(&through).is_empty(), "{bad:?}");
+            assert!(bad.bounds().is_empty() && bad.sample([0.5, 0.5]).is_none());
+        }
+    }
+
+    #[test]
+    fn from_far_away_it_is_still_round() {
+        let ball = Sphere::new(Point3::ORIGIN, 1.0);
+        let at = |y: f64| Ray::new(Point3::new(-1e8, y, 0.0), Vector3::new(1.0, 0.0, 0.0));
+        assert_eq!(ball.crossings(&at(1.0 - 1e-9)).len(), 2);
+        assert!(ball.crossings(&at(1.0 + 1e-9)).is_empty());
     }
 }

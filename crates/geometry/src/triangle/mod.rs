@@ -3,10 +3,18 @@
 //! Each kernel is two steps: what can be worked out once a ray, and the test of one triangle. They
 //! are chosen by name ([`TriangleTest`]); the watertight one is the default for meshes.
 
+mod barycentric;
+mod cramer;
+mod moller_trumbore;
 mod watertight;
+
+use std::fmt;
+use std::str::FromStr;
 
 use crate::{Crossing, EdgeRule, Point3, Ray, Real};
 
+pub use cramer::Cramer;
+pub use moller_trumbore::MollerTrumbore;
 pub use watertight::Watertight;
 
 /// A ray–triangle test. `T` is the precision that it works in.
@@ -27,17 +35,33 @@ pub enum TriangleTest {
     /// [`Watertight`]: no ray escapes through an edge or a vertex.
     #[default]
     Watertight,
+    /// [`MollerTrumbore`]: the classic; rays can escape through edges.
+    MollerTrumbore,
+    /// [`Cramer`]: as taught, four determinants; rays can escape through edges.
+    Cramer,
 }
 
 impl TriangleTest {
     /// All of them, the default first.
-    pub const ALL: [Self; 1] = [Self::Watertight];
+    pub const ALL: [Self; 3] = [Self::Watertight, Self::MollerTrumbore, Self::Cramer];
 
     /// The name that a person types.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Watertight => "watertight",
+            Self::MollerTrumbore => "moller-trumbore",
+            Self::Cramer => "cramer",
+        }
+    }
+
+    /// What it is, in one line.
+    #[must_use]
+    pub const fn line(self) -> &'static str {
+        match self {
+            Self::Watertight => "Woop, Benthin, Wald 2013: no ray escapes through an edge",
+            Self::MollerTrumbore => "Möller, Trumbore 1997: Cramer's rule, common parts once",
+            Self::Cramer => "as taught: the 3 × 3 system by Cramer's rule",
         }
     }
 
@@ -55,8 +79,46 @@ impl TriangleTest {
         let kernel = match (self, single) {
             (Self::Watertight, true) => Kernel::WatertightSingle(near, Watertight::new(&near)),
             (Self::Watertight, false) => Kernel::WatertightDouble(*ray, Watertight::new(ray)),
+            (Self::MollerTrumbore, true) => Kernel::MollerTrumboreSingle(near),
+            (Self::MollerTrumbore, false) => Kernel::MollerTrumboreDouble(*ray),
+            (Self::Cramer, true) => Kernel::CramerSingle(near),
+            (Self::Cramer, false) => Kernel::CramerDouble(*ray),
         };
         PreparedTriangleTest { kernel, rule }
+    }
+}
+
+impl fmt::Display for TriangleTest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A name that no ray–triangle test has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownTriangleTest(String);
+
+impl fmt::Display for UnknownTriangleTest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = TriangleTest::ALL.map(TriangleTest::name).join(", ");
+        let asked = &self.0;
+        write!(
+            f,
+            "there is no triangle test \"{asked}\"; there are: {names}"
+        )
+    }
+}
+
+impl std::error::Error for UnknownTriangleTest {}
+
+impl FromStr for TriangleTest {
+    type Err = UnknownTriangleTest;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::ALL
+            .into_iter()
+            .find(|test| test.name().eq_ignore_ascii_case(name))
+            .ok_or_else(|| UnknownTriangleTest(name.to_owned()))
     }
 }
 
@@ -71,6 +133,10 @@ pub struct PreparedTriangleTest {
 enum Kernel {
     WatertightSingle(Ray<f32>, Watertight<f32>),
     WatertightDouble(Ray<f64>, Watertight<f64>),
+    MollerTrumboreSingle(Ray<f32>),
+    MollerTrumboreDouble(Ray<f64>),
+    CramerSingle(Ray<f32>),
+    CramerDouble(Ray<f64>),
 }
 
 impl PreparedTriangleTest {
@@ -78,11 +144,32 @@ impl PreparedTriangleTest {
     #[must_use]
     #[inline]
     pub fn crossing(&self, corners: [Point3; 3]) -> Option<Crossing> {
+        let rule = self.rule;
+        let wide = || corners.map(Point3::wide);
         match &self.kernel {
-            Kernel::WatertightSingle(ray, test) => test.crossing(ray, corners, self.rule),
-            Kernel::WatertightDouble(ray, test) => {
-                test.crossing(ray, corners.map(Point3::wide), self.rule)
-            }
+            Kernel::WatertightSingle(ray, test) => test.crossing(ray, corners, rule),
+            Kernel::WatertightDouble(ray, test) => test.crossing(ray, wide(), rule),
+            Kernel::MollerTrumboreSingle(ray) => MollerTrumbore.crossing(ray, corners, rule),
+            Kernel::MollerTrumboreDouble(ray) => MollerTrumbore.crossing(ray, wide(), rule),
+            Kernel::CramerSingle(ray) => Cramer.crossing(ray, corners, rule),
+            Kernel::CramerDouble(ray) => Cramer.crossing(ray, wide(), rule),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_test_goes_by_its_name() {
+        for test in TriangleTest::ALL {
+            assert_eq!(test.name().parse(), Ok(test));
+        }
+        let unknown = "plucker".parse::<TriangleTest>().unwrap_err();
+        assert_eq!(
+            unknown.to_string(),
+            "there is no triangle test \"plucker\"; there are: watertight, moller-trumbore, cramer"
+        );
     }
 }

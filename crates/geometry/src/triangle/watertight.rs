@@ -3,17 +3,22 @@
 //! Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 //!
 //! The idea: shear space so that the ray becomes the z axis through the origin; then the question
-//! is on which side of three edges the origin lies in the plane. Two triangles that share an edge
-//! compute its side from the same two sheared corners, with opposite sign, so they cannot both say
-//! "outside".
+//! is on which side of three edges the origin lies in the plane. A corner is sheared by itself, so
+//! triangles that share it agree on where it is, and two triangles that share an edge compute its
+//! side from the same two sheared corners with opposite sign: they cannot both say "outside".
 //!
 //! Where this departs from the paper:
 //! 1. The winding is kept when axes are swapped, but nothing is culled by it.
-//! 2. Where an edge function is 0 in single precision all three are computed again in double, as in
-//!    the paper; the products of two singles are then exact, so the sign is the true one. Rounding
-//!    is monotone, so a sign that is not 0 was the true one already.
+//! 2. What is not a miss is decided again in double precision, where the sign of every edge
+//!    function is the true one (see `edge_exact`). A sign that is not 0 was the true one already:
+//!    rounding is monotone, so the difference of two rounded products never has the wrong sign, and
+//!    no hit has been turned away. The paper does this only where an edge function is 0 in single
+//!    precision; here every hit gets weights without cancellation, so that the t of a sliver, or of
+//!    a triangle seen from its edge, is as good as any other.
 //! 3. Under [`EdgeRule::HalfOpen`] an origin exactly on an edge belongs to the triangle for which
-//!    the edge is a left or a bottom one: the rule of rasterizers.
+//!    the edge points down, or to the left if it is level: the rule of rasterizers. It decides as if
+//!    the origin were moved a little, the same way for all triangles, and since all signs are true,
+//!    a closed mesh is crossed an even number of times by a line, through vertices too.
 //! 4. `t` is not compared in scaled form: one division a hit is not what costs.
 
 use super::TriangleKernel;
@@ -44,36 +49,32 @@ impl<T: Real> TriangleKernel<T> for Watertight<T> {
     #[inline]
     fn crossing(&self, ray: &Ray<T>, corners: [Point3<T>; 3], rule: EdgeRule) -> Option<Crossing> {
         let [a, b, c] = corners.map(|corner| self.sheared(corner - ray.origin));
-        let mut u = edge(c, b);
-        let mut v = edge(a, c);
-        let mut w = edge(b, a);
-        let zero = T::zero();
-        if u == zero || v == zero || w == zero {
-            [u, v, w] = [edge_wide(c, b), edge_wide(a, c), edge_wide(b, a)].map(T::of);
+        if on_both_sides([edge(c, b), edge(a, c), edge(b, a)]) {
+            return None;
         }
-        if (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero) {
+        let [a, b, c] = [a, b, c].map(Vector3::wide);
+        let (u, v, w) = (edge_exact(c, b), edge_exact(a, c), edge_exact(b, a));
+        if on_both_sides([u, v, w]) {
             return None;
         }
         let det = u + v + w;
         // Not `== 0`: a NaN corner ends here too.
-        if !(det.abs() > zero) {
+        if !(det.abs() > 0.0) {
             return None;
         }
         if rule == EdgeRule::HalfOpen {
-            let flip = det < zero;
-            let owned = |side: T, from, to| side != zero || owns(from, to, flip);
+            let flip = det < 0.0;
+            let owned = |side: f64, from, to| side != 0.0 || owns(from, to, flip);
             if !(owned(u, b, c) && owned(v, c, a) && owned(w, a, b)) {
                 return None;
             }
         }
-        let t = (u * a.z + v * b.z + w * c.z) * self.shear.z / det;
-        if !(ray.t_min <= t && t <= ray.t_max) {
-            return None;
-        }
-        Some(Crossing {
+        let z = (u / det) * a.z + (v / det) * b.z + (w / det) * c.z;
+        let t = T::of(z * self.shear.z.wide());
+        in_range(ray, t).then(|| Crossing {
             t: t.wide(),
-            u: (v / det).wide() as f32,
-            v: (w / det).wide() as f32,
+            u: (v / det) as f32,
+            v: (w / det) as f32,
         })
     }
 }
@@ -98,18 +99,38 @@ fn edge<T: Real>(p: Vector3<T>, q: Vector3<T>) -> T {
     p.x * q.y - p.y * q.x
 }
 
-/// The same with products that are exact if `T` is single precision.
+/// The same with the true sign, as long as no product leaves the number range.
+///
+/// Products of two singles are exact here. Products of two doubles are not: where they round to the
+/// same number, the difference is that of their rounding errors, which a fused multiply-add tells
+/// (Dekker, "A floating-point technique for extending the available precision", 1971).
+fn edge_exact(p: Vector3<f64>, q: Vector3<f64>) -> f64 {
+    let (left, right) = (p.x * q.y, p.y * q.x);
+    let difference = left - right;
+    if difference == 0.0 {
+        p.x.mul_add(q.y, -left) - p.y.mul_add(q.x, -right)
+    } else {
+        difference
+    }
+}
+
+/// Whether the origin is to the left of one edge and to the right of another.
 #[inline]
-fn edge_wide<T: Real>(p: Vector3<T>, q: Vector3<T>) -> f64 {
-    p.x.wide() * q.y.wide() - p.y.wide() * q.x.wide()
+fn on_both_sides<T: Real>([u, v, w]: [T; 3]) -> bool {
+    let zero = T::zero();
+    (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero)
+}
+
+/// Whether the crossing counts for the ray. One at infinity, where products overflow, does not.
+#[inline]
+fn in_range<T: Real>(ray: &Ray<T>, t: T) -> bool {
+    ray.t_min <= t && t <= ray.t_max && t < T::infinity()
 }
 
 /// Whether a triangle owns its edge `from` → `to`: it points down, or to the left if it is level.
 /// Of two triangles on either side of an edge, one sees it pointing one way, one the other.
-#[inline]
-fn owns<T: Real>(from: Vector3<T>, to: Vector3<T>, flip: bool) -> bool {
+fn owns(from: Vector3<f64>, to: Vector3<f64>, flip: bool) -> bool {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
-    let zero = T::zero();
-    let down_or_left = dy < zero || (dy == zero && dx < zero);
+    let down_or_left = dy < 0.0 || (dy == 0.0 && dx < 0.0);
     down_or_left != flip
 }

@@ -80,6 +80,19 @@ impl Camera {
         )
     }
 
+    /// What is on the right and what faces the viewer of a model whose unit vector `up` points up:
+    /// its front is +z where y is up and −y where z is up, as modellers have it.
+    #[must_use]
+    pub fn sides(up: Vector3) -> (Vector3, Vector3) {
+        let nearly = if up.y.abs() >= up.z.abs() {
+            Vector3::Z
+        } else {
+            -Vector3::Y
+        };
+        let right = up.cross(nearly).normalized().unwrap_or(Vector3::X);
+        (right, right.cross(up))
+    }
+
     /// A camera that sees all of a box, from a little above its front and to the right, for models
     /// that come without one. An empty or unbounded box is taken as the unit cube.
     #[must_use]
@@ -89,17 +102,13 @@ impl Camera {
         let bounds = if usable { *bounds } else { unit };
         let fov = Angle::from_degrees(35.0);
         let up = up.normalized().unwrap_or(Vector3::Y);
-        // Toward the viewer: +z where y is up, −y where z is up, as modellers have it.
-        let front = if up.y.abs() >= up.z.abs() {
-            Vector3::Z
-        } else {
-            -Vector3::Y
-        };
-        let right = up.cross(front);
+        let (right, front) = Self::sides(up);
         let away = (front + right * 0.55 + up * 0.4)
             .normalized()
             .unwrap_or(front);
-        let radius = (bounds.extent().length() * 0.5).max(f32::MIN_POSITIVE);
+        // A single point is looked at from a distance that its coordinates can express.
+        let least = bounds.centre().to_vector().max_norm() * 1e-4;
+        let radius = (bounds.extent().length() * 0.5).max(least).max(1e-30);
         let half = (fov * 0.5).tan().min((fov * 0.5).tan() * aspect).atan();
         let centre = bounds.centre();
         let position = centre + away * (radius / half.sin());

@@ -34,7 +34,8 @@ pub enum Light {
         direction: Vector3,
         /// Half the opening angle of the part that is fully lit.
         inner: Angle,
-        /// Half the opening angle of the whole cone; between the two the light fades.
+        /// Half the opening angle of the whole cone; between the two the light fades. Not above
+        /// `inner` makes a sharp edge.
         outer: Angle,
         /// The colour and strength of the light in the middle, as it arrives at distance 1.
         intensity: Rgb,
@@ -126,8 +127,12 @@ fn toward(from: Point3, to: Point3) -> Option<(Vector3, f32)> {
     Some((way.normalized()?, way.length()))
 }
 
-/// 0 below `start`, 1 above `end`, a smooth cubic in between.
+/// 0 below `start`, 1 from `end` on, a smooth cubic in between; a step at `start` where `end` is not
+/// above it.
 fn fade(x: f32, start: f32, end: f32) -> f32 {
+    if x < start {
+        return 0.0;
+    }
     if x >= end {
         return 1.0;
     }
@@ -169,5 +174,7 @@ mod tests {
         assert_eq!(spot(20.0).sample_li(aside), None);
         assert!(spot(40.0).sample_li(aside).unwrap().incident.r > 0.0);
         assert_eq!(spot(10.0).sample_li(aside), None);
+        assert_eq!(spot(5.0).sample_li(aside), None, "outer below inner");
+        assert_eq!(spot(5.0).sample_li(below).unwrap().incident, Rgb::WHITE);
     }
 }

@@ -1,5 +1,8 @@
 //! Triangles that share their vertices.
 
+pub mod generate;
+mod surface;
+
 use crate::{Aabb, Normal3, Point3};
 
 /// An indexed triangle mesh.

@@ -1,0 +1,239 @@
+//! What the surface of a mesh is like: normals, texture coordinates, area.
+
+use std::collections::HashMap;
+
+use super::TriangleMesh;
+use crate::{Normal3, Point3, Vector3};
+
+impl TriangleMesh {
+    /// The unit normal of the plane of a triangle, to where its corners run counter-clockwise;
+    /// `None` for one without area.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[must_use]
+    pub fn geometric_normal(&self, triangle: usize) -> Option<Normal3<f64>> {
+        Some(self.cross(triangle).normalized()?.to_normal())
+    }
+
+    /// The unit normal that shading uses at barycentric weights (u, v) of the second and third
+    /// corner: the vertex normals interpolated, or the geometric normal where the mesh has none or
+    /// they cancel. `None` for a triangle without area and without normals.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[must_use]
+    pub fn shading_normal(&self, triangle: usize, u: f64, v: f64) -> Option<Normal3<f64>> {
+        let interpolated = self.normals().and_then(|normals| {
+            let corners = self.triangles()[triangle].map(|i| normals[i as usize].wide());
+            let [a, b, c] = corners;
+            (a * (1.0 - u - v) + b * u + c * v).normalized()
+        });
+        interpolated.or_else(|| self.geometric_normal(triangle))
+    }
+
+    /// The texture coordinates at barycentric weights (u, v) of the second and third corner; `None`
+    /// if the mesh has none.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[must_use]
+    pub fn uv_at(&self, triangle: usize, u: f32, v: f32) -> Option<[f32; 2]> {
+        let uvs = self.uvs()?;
+        let [a, b, c] = self.triangles()[triangle].map(|i| uvs[i as usize]);
+        let w = 1.0 - u - v;
+        Some([0, 1].map(|i| a[i] * w + b[i] * u + c[i] * v))
+    }
+
+    /// The area of a triangle.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[must_use]
+    pub fn triangle_area(&self, triangle: usize) -> f64 {
+        self.cross(triangle).length() / 2.0
+    }
+
+    /// The area of all triangles.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        (0..self.triangles().len())
+            .map(|i| self.triangle_area(i))
+            .sum()
+    }
+
+    /// How many triangles can never be hit: their corners lie on one line or are the same, or one is
+    /// not finite.
+    ///
+    /// The arithmetic is exact for corners whose coordinates span less than eight decimal orders of
+    /// magnitude, so that a thin triangle is not taken for one without area.
+    #[must_use]
+    pub fn degenerate_triangles(&self) -> usize {
+        (0..self.triangles().len())
+            .filter(|&i| !(self.cross(i).max_norm() > 0.0 && self.cross(i).is_finite()))
+            .count()
+    }
+
+    /// Vertex normals that make the surface look smooth: at each vertex the normals of the triangles
+    /// that meet there, weighted by their angle there, so that it does not matter how a flat part is
+    /// cut into triangles (Thürmer, Wüthrich, "Computing Vertex Normals from Polygonal Facets",
+    /// Journal of Graphics Tools 3(1), 1998). Zero where no triangle with area meets.
+    ///
+    /// Vertices are smoothed over where triangles share them by index: two vertices in one place
+    /// make a crease.
+    #[must_use]
+    pub fn smooth_normals(&self) -> Vec<Normal3> {
+        let mut sums = vec![Vector3::new(0.0_f64, 0.0, 0.0); self.positions().len()];
+        for (i, indices) in self.triangles().iter().enumerate() {
+            let Some(normal) = self.geometric_normal(i) else {
+                continue;
+            };
+            let corners = self.corners(i).map(Point3::wide);
+            for k in 0..3 {
+                let here = corners[k];
+                let (next, last) = (corners[(k + 1) % 3] - here, corners[(k + 2) % 3] - here);
+                let angle = next.cross(last).length().atan2(next.dot(last));
+                sums[indices[k] as usize] += normal.to_vector() * angle;
+            }
+        }
+        let unit = |sum: Vector3<f64>| sum.normalized().map(|n| n.to_normal().cast());
+        sums.into_iter()
+            .map(|sum| unit(sum).unwrap_or_default())
+            .collect()
+    }
+
+    /// The same mesh with [smooth normals](Self::smooth_normals) in place of those that it had.
+    #[must_use]
+    pub fn with_smooth_normals(self) -> Self {
+        let normals = Some(self.smooth_normals());
+        Self { normals, ..self }
+    }
+
+    /// Whether the mesh is closed: each edge of a triangle is, by index, the edge of exactly one
+    /// other one that runs through it the opposite way. A mesh of nothing is closed.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let mut edges: HashMap<(u32, u32), usize> = HashMap::new();
+        for &[a, b, c] in self.triangles() {
+            for edge in [(a, b), (b, c), (c, a)] {
+                *edges.entry(edge).or_default() += 1;
+            }
+        }
+        edges.iter().all(|(&(from, to), &count)| {
+            count == 1 && from != to && edges.get(&(to, from)) == Some(&1)
+        })
+    }
+
+    /// Twice the area of a triangle, along its normal.
+    fn cross(&self, triangle: usize) -> Vector3<f64> {
+        let [a, b, c] = self.corners(triangle).map(Point3::wide);
+        (b - a).cross(c - a)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mesh::generate::{cuboid, icosphere};
+    use crate::{Aabb, Normal3, Point3, TriangleMesh};
+
+    fn unit_cube() -> TriangleMesh {
+        cuboid(&Aabb::around([
+            Point3::ORIGIN,
+            Point3::new(1.0_f32, 1.0, 1.0),
+        ]))
+    }
+
+    /// One good triangle, a needle, a point, a NaN, and a vertex that none uses.
+    fn ragged() -> TriangleMesh {
+        let positions = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [f32::NAN, 0.0, 0.0],
+            [7.0, 7.0, 7.0],
+        ];
+        let triangles = vec![[0, 1, 2], [0, 1, 3], [0, 0, 0], [0, 1, 4]];
+        TriangleMesh::new(positions.map(Point3::from).to_vec(), triangles).unwrap()
+    }
+
+    #[test]
+    fn triangles_without_area_are_counted_and_change_no_normal() {
+        let mesh = ragged();
+        assert_eq!(mesh.degenerate_triangles(), 3);
+        let normals = mesh.smooth_normals();
+        assert_eq!(normals[0], Normal3::new(0.0, 0.0, 1.0));
+        assert_eq!(normals[5], Normal3::default());
+        assert_eq!(mesh.geometric_normal(1), None);
+        assert_eq!(mesh.shading_normal(1, 0.2, 0.2), None);
+    }
+
+    #[test]
+    fn a_thin_triangle_is_no_degenerate_one() {
+        let positions = vec![
+            Point3::new(1e3_f32, 0.0, 0.0),
+            Point3::new(2e3, 0.0, 0.0),
+            Point3::new(1.5e3, 1e-4, 0.0),
+        ];
+        let mesh = TriangleMesh::new(positions, vec![[0, 1, 2]]).unwrap();
+        assert_eq!(mesh.degenerate_triangles(), 0);
+    }
+
+    #[test]
+    fn smooth_normals_of_a_ball_point_outward() {
+        let centre = Point3::new(3.0, -1.0, 2.0);
+        let ball = icosphere(2, centre, 2.0);
+        for (position, normal) in ball.positions().iter().zip(ball.smooth_normals()) {
+            let outward = (*position - centre).normalized().unwrap();
+            assert!(normal.dot(outward) > 0.9999, "{normal:?} at {position:?}");
+        }
+    }
+
+    #[test]
+    fn smooth_normals_do_not_depend_on_the_cut_of_a_flat_part() {
+        for normal in unit_cube().smooth_normals() {
+            let third = 1.0 / 3.0_f32.sqrt();
+            for component in normal.to_array() {
+                assert!((component.abs() - third).abs() < 1e-6, "{normal:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn shading_normals_are_interpolated_or_geometric() {
+        let cube = unit_cube();
+        let flat = cube.shading_normal(0, 0.3, 0.3);
+        assert_eq!(flat, cube.geometric_normal(0));
+        let smooth = cube.with_smooth_normals();
+        let corner = smooth.triangles()[0][1] as usize;
+        let expected = smooth.normals().unwrap()[corner].wide();
+        let found = smooth.shading_normal(0, 1.0, 0.0).unwrap();
+        assert!((found - expected).length() < 1e-6);
+    }
+
+    #[test]
+    fn uvs_are_interpolated() {
+        let mesh = ragged();
+        assert_eq!(mesh.uv_at(0, 0.5, 0.25), None);
+        let uvs = vec![
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [0.0, 2.0],
+            [0.0; 2],
+            [0.0; 2],
+            [0.0; 2],
+        ];
+        let mesh = mesh.with_uvs(uvs).unwrap();
+        assert_eq!(mesh.uv_at(0, 0.5, 0.25), Some([0.5, 0.5]));
+    }
+
+    #[test]
+    fn a_mesh_with_a_hole_is_not_closed() {
+        assert!(TriangleMesh::default().is_closed());
+        let cube = unit_cube();
+        assert!(cube.is_closed());
+        let some = cube.triangles()[1..].to_vec();
+        let holed = TriangleMesh::new(cube.positions().to_vec(), some).unwrap();
+        assert!(!holed.is_closed());
+    }
+}

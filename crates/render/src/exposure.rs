@@ -1,0 +1,74 @@
+//! From a launch index to camera rays, and from what they bring to a pixel.
+
+use std::ops::Range;
+
+use ombra_geometry::Ray;
+use ombra_pipeline::Exception;
+use ombra_scene::Camera;
+use ombra_scene::camera::CameraSample;
+
+use crate::film::{Crop, Pixel};
+use crate::sampler::{Dimension, Sample};
+use crate::{SamplerKind, Settings};
+
+/// One pass over a film: which samples of its pixels to take, and along which rays.
+#[derive(Clone, Debug)]
+pub(crate) struct Exposure<'a> {
+    camera: &'a Camera,
+    picture: [u32; 2],
+    aspect: f32,
+    crop: Crop,
+    sampler: SamplerKind,
+    seed: u64,
+    /// Of one sample a pixel, which goes through its middle.
+    centred: bool,
+    samples: Range<u32>,
+}
+
+impl<'a> Exposure<'a> {
+    /// The samples of a pass; `settings` are valid.
+    pub(crate) fn new(camera: &'a Camera, settings: &Settings, samples: Range<u32>) -> Self {
+        Self {
+            camera,
+            picture: [settings.width, settings.height],
+            aspect: settings.aspect(),
+            crop: settings.extent(),
+            sampler: settings.sampler,
+            seed: settings.seed,
+            centred: settings.spp == 1,
+            samples,
+        }
+    }
+
+    /// Adds to a pixel what `measure` says of each camera ray.
+    #[inline]
+    pub(crate) fn expose(
+        &self,
+        launch_index: [u32; 3],
+        pixel: &mut Pixel,
+        mut measure: impl FnMut(&Ray, &Sample) -> Result<ombra_scene::Rgb, Exception>,
+    ) -> Result<(), Exception> {
+        let [x, y, _] = launch_index;
+        let place = [self.crop.x0 + x, self.crop.y0 + y];
+        for index in self.samples.clone() {
+            let sample = Sample::new(self.sampler, self.seed, place, index);
+            let measured = measure(&self.ray(place, &sample), &sample)?;
+            pixel.add(measured);
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn ray(&self, [x, y]: [u32; 2], sample: &Sample) -> Ray {
+        let (within, lens) = if self.centred {
+            ([0.5; 2], [0.5; 2])
+        } else {
+            (sample.pair(Dimension::Pixel), sample.pair(Dimension::Lens))
+        };
+        let screen = [
+            (x as f32 + within[0]) / self.picture[0] as f32,
+            (y as f32 + within[1]) / self.picture[1] as f32,
+        ];
+        self.camera.ray(self.aspect, CameraSample { screen, lens })
+    }
+}

@@ -1,0 +1,147 @@
+//! How open a place is.
+
+use std::f32::consts::TAU;
+
+use ombra_geometry::{Hit, Normal3, Ray, Vector3};
+use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
+use ombra_scene::{Interaction, Rgb, World};
+
+use super::View;
+use crate::exposure::Exposure;
+use crate::film::Pixel;
+use crate::sampler::Dimension;
+
+/// How far away something still occludes, as a share of the diagonal of the scene's finite bounds.
+const REACH: f32 = 0.1;
+
+/// Ambient occlusion: the share of the hemisphere over what is seen, weighted by the cosine, that
+/// is free of obstacles nearby ([`REACH`]); white where there is nothing. It is a matter of geometry
+/// alone: glass and lamps occlude, too.
+///
+/// Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", EGRW 1998, with a step for their
+/// function of the distance; one ray a sample.
+pub(crate) struct AmbientOcclusion<'a> {
+    world: &'a World,
+    exposure: Exposure<'a>,
+    distance: f32,
+}
+
+impl<'a> AmbientOcclusion<'a> {
+    pub(crate) fn new(world: &'a World, exposure: Exposure<'a>) -> Self {
+        let bounds = world.finite_bounds();
+        let distance = if bounds.is_empty() {
+            f32::INFINITY
+        } else {
+            bounds.extent().length() * REACH
+        };
+        Self {
+            world,
+            exposure,
+            distance,
+        }
+    }
+}
+
+/// Asks whether something is in the way.
+enum Occlusion {}
+
+impl RayType for Occlusion {
+    type Payload = bool;
+    const NAME: &'static str = "occlusion";
+}
+
+/// The place that a camera ray meets.
+enum Seen {}
+
+impl RayType for Seen {
+    type Payload = Option<Interaction>;
+    const NAME: &'static str = View::NAME;
+}
+
+impl Pipeline for AmbientOcclusion<'_> {
+    type World = World;
+
+    fn world(&self) -> &World {
+        self.world
+    }
+}
+
+impl RayProgram<Seen> for AmbientOcclusion<'_> {
+    fn closest_hit(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        ray: &Ray,
+        hit: &Hit,
+        place: &mut Option<Interaction>,
+    ) -> Result<(), Exception> {
+        *place = Some(self.world.interaction(ray, hit));
+        Ok(())
+    }
+}
+
+impl RayProgram<Occlusion> for AmbientOcclusion<'_> {
+    #[inline]
+    fn any_hit(&self, _ray: &Ray, _hit: &Hit, occluded: &mut bool) -> AnyHit {
+        *occluded = true;
+        AnyHit::Terminate
+    }
+}
+
+impl RayGeneration for AmbientOcclusion<'_> {
+    type Output = Pixel;
+
+    fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
+        self.exposure
+            .expose(cx.launch_index(), pixel, |ray, sample| {
+                let mut place = None;
+                cx.trace::<Seen>(ray, &mut place)?;
+                let Some(place) = place else {
+                    return Ok(Rgb::WHITE);
+                };
+                // The true normal: over a shading normal some directions would start into the surface.
+                let normal = place.normal.facing(-place.wo);
+                let direction = cosine_weighted(normal, sample.pair(Dimension::Hemisphere));
+                let ray = place.spawn_within(direction, self.distance);
+                let mut occluded = false;
+                if ray.is_valid() {
+                    cx.trace::<Occlusion>(&ray, &mut occluded)?;
+                }
+                Ok(if occluded { Rgb::BLACK } else { Rgb::WHITE })
+            })
+    }
+}
+
+/// A unit direction over a surface with a density proportional to the cosine to its normal: a
+/// uniform point of the disk, lifted (Malley's method).
+fn cosine_weighted(normal: Normal3, [u, v]: [f32; 2]) -> Vector3 {
+    let normal = normal.to_vector();
+    let (s, t) = normal.orthonormal_basis();
+    let radius = u.sqrt();
+    let (sin, cos) = (v * TAU).sin_cos();
+    s * (radius * cos) + t * (radius * sin) + normal * (1.0 - u).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_over_a_surface_follow_the_cosine() {
+        let normal = Vector3::new(0.6, -0.48, 0.64).to_normal();
+        let n = 64_u32;
+        let mut below = [0_u32; 4];
+        for i in 0..n * n {
+            let xi = [i % n, i / n].map(|x| (x as f32 + 0.5) / n as f32);
+            let direction = cosine_weighted(normal, xi);
+            assert!((direction.length() - 1.0).abs() < 1e-5);
+            let cosine = normal.dot(direction);
+            assert!(cosine > 0.0);
+            // sin² is uniform.
+            below[((1.0 - cosine * cosine) * 4.0).clamp(0.0, 3.0) as usize] += 1;
+        }
+        assert!(
+            below.iter().all(|&count| count.abs_diff(n * n / 4) <= n),
+            "{below:?}"
+        );
+    }
+}

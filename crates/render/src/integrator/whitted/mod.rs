@@ -1,0 +1,176 @@
+//! Whitted's ray tracing, as taught: trace(point, direction, step).
+
+mod local;
+mod shadow;
+mod side;
+
+use ombra_geometry::{Hit, Ray};
+use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
+use ombra_scene::{Interaction, Material, Rgb, World};
+
+use crate::exposure::Exposure;
+use crate::film::Pixel;
+use crate::optics;
+use shadow::{Filter, Shadow};
+use side::Side;
+
+/// trace(point, direction, step) of the lecture, after Whitted, "An Improved Illumination Model for
+/// Shaded Display", CACM 23(6), 1980:
+///
+/// - beyond the last step, and where there is nothing: the background;
+/// - a light source: its emission, and nothing else;
+/// - any other surface: Phong's local term, plus what is seen in the mirror direction, plus what is
+///   seen through the surface, each by a ray with one step more.
+///
+/// Rays of small weight are traced like all others; only those of no weight at all are left out.
+pub(crate) struct Whitted<'a> {
+    world: &'a World,
+    exposure: Exposure<'a>,
+    max_depth: u32,
+}
+
+/// The rays that bring light.
+enum Radiance {}
+
+impl RayType for Radiance {
+    type Payload = Traced;
+    const NAME: &'static str = "radiance";
+}
+
+/// What a radiance ray carries.
+#[derive(Clone, Copy)]
+struct Traced {
+    /// How often its light was reflected or refracted on the way.
+    step: u32,
+    /// What it brought.
+    radiance: Rgb,
+}
+
+impl<'a> Whitted<'a> {
+    pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>, max_depth: u32) -> Self {
+        Self {
+            world,
+            exposure,
+            max_depth,
+        }
+    }
+
+    /// The lecture's function.
+    fn radiance(&self, cx: &mut Context<'_, Self>, ray: &Ray, step: u32) -> Result<Rgb, Exception> {
+        let background = self.world.scene().background;
+        if step > self.max_depth {
+            return Ok(background);
+        }
+        let mut traced = Traced {
+            step,
+            radiance: background,
+        };
+        cx.trace::<Radiance>(ray, &mut traced)?;
+        Ok(traced.radiance)
+    }
+
+    /// What is seen in the mirror and through the surface.
+    fn bounced(
+        &self,
+        cx: &mut Context<'_, Self>,
+        place: &Interaction,
+        side: &Side,
+        material: &Material,
+        step: u32,
+    ) -> Result<Rgb, Exception> {
+        let mut mirrored = material.reflection;
+        let mut radiance = Rgb::BLACK;
+        if !material.transmission.is_black() {
+            let eta = side.eta(material.index_of_refraction);
+            let through = side.refracted(place.wo, eta);
+            let share = match through {
+                None => 1.0,
+                Some(_) if material.fresnel => optics::fresnel(side.cosine(place.wo), eta),
+                Some(_) => 0.0,
+            };
+            mirrored += material.transmission * share;
+            if let Some(direction) = through {
+                let weight = material.transmission * (1.0 - share);
+                radiance += self.weighted(cx, place.spawn(direction), weight, step)?;
+            }
+        }
+        let direction = side.reflected(place.wo);
+        radiance += self.weighted(cx, place.spawn(direction), mirrored, step)?;
+        Ok(radiance)
+    }
+
+    fn weighted(
+        &self,
+        cx: &mut Context<'_, Self>,
+        ray: Ray,
+        weight: Rgb,
+        step: u32,
+    ) -> Result<Rgb, Exception> {
+        // A place at the end of the number range has no ray that leaves it.
+        if weight.is_black() || !ray.is_valid() {
+            return Ok(Rgb::BLACK);
+        }
+        Ok(weight * self.radiance(cx, &ray, step + 1)?)
+    }
+}
+
+impl Pipeline for Whitted<'_> {
+    type World = World;
+
+    fn world(&self) -> &World {
+        self.world
+    }
+
+    /// A shadow ray from the last step is nested one deeper than that step.
+    fn max_trace_depth(&self) -> u32 {
+        self.max_depth + 2
+    }
+}
+
+impl RayProgram<Radiance> for Whitted<'_> {
+    fn closest_hit(
+        &self,
+        cx: &mut Context<'_, Self>,
+        ray: &Ray,
+        hit: &Hit,
+        traced: &mut Traced,
+    ) -> Result<(), Exception> {
+        let material = self.world.material(hit);
+        if material.is_light_source() {
+            traced.radiance = material.emission;
+            return Ok(());
+        }
+        let place = self.world.interaction(ray, hit);
+        let side = Side::of(&place);
+        traced.radiance = self.local(cx, &place, &side, material)?
+            + self.bounced(cx, &place, &side, material, traced.step)?;
+        Ok(())
+    }
+}
+
+impl RayProgram<Shadow> for Whitted<'_> {
+    /// What is opaque ends the ray, what is transparent dims the light, and a light source lets it
+    /// pass: else a lamp would put itself into the shade.
+    #[inline]
+    fn any_hit(&self, _ray: &Ray, hit: &Hit, filter: &mut Filter) -> AnyHit {
+        let material = self.world.material(hit);
+        if material.is_light_source() {
+            AnyHit::Ignore
+        } else if material.transmission.is_black() {
+            filter.block();
+            AnyHit::Terminate
+        } else {
+            filter.dim(material.transmission);
+            AnyHit::Ignore
+        }
+    }
+}
+
+impl RayGeneration for Whitted<'_> {
+    type Output = Pixel;
+
+    fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
+        self.exposure
+            .expose(cx.launch_index(), pixel, |ray, _| self.radiance(cx, ray, 0))
+    }
+}

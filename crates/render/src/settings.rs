@@ -1,0 +1,155 @@
+//! What picture to make.
+
+use crate::{Crop, IntegratorKind, RenderError, SamplerKind};
+
+/// The longest side of a picture, in pixels: beyond, single precision runs out of places in a pixel.
+pub const MAX_SIDE: u32 = 1 << 16;
+
+/// The most pixels of a film.
+pub const MAX_PIXELS: u64 = 1 << 31;
+
+/// The most samples a pixel.
+pub const MAX_SPP: u32 = 1 << 24;
+
+/// The most bounces: each takes its part of a thread's stack.
+pub const MAX_DEPTH: u32 = 256;
+
+/// What picture to make. The same settings give the same picture, to the last bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Pixels in a row of the whole picture, 1 to [`MAX_SIDE`].
+    pub width: u32,
+    /// Rows of the whole picture, 1 to [`MAX_SIDE`].
+    pub height: u32,
+    /// Samples a pixel, 1 to [`MAX_SPP`]. A single one goes through the middle of the pixel and of
+    /// the lens; more are spread over the area of the pixel, all counting alike (a box filter).
+    pub spp: u32,
+    /// How often light may bounce, 0 to [`MAX_DEPTH`]: with 0 only what camera rays meet is shaded.
+    /// Beyond the last bounce the background is seen.
+    pub max_depth: u32,
+    /// Chooses the random numbers.
+    pub seed: u64,
+    /// Which part of the picture to render: the film becomes as large as that, and its pixels are
+    /// the ones that the whole picture has there.
+    pub crop: Option<Crop>,
+    /// What to measure along camera rays.
+    pub integrator: IntegratorKind,
+    /// How samples are spread.
+    pub sampler: SamplerKind,
+}
+
+impl Default for Settings {
+    /// 960 × 540, one sample a pixel, 8 bounces.
+    fn default() -> Self {
+        Self {
+            width: 960,
+            height: 540,
+            spp: 1,
+            max_depth: 8,
+            seed: 0,
+            crop: None,
+            integrator: IntegratorKind::default(),
+            sampler: SamplerKind::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The width of the whole picture over its height.
+    #[must_use]
+    pub fn aspect(&self) -> f32 {
+        self.width as f32 / self.height as f32
+    }
+
+    /// What part of the picture is rendered: the crop, or all of it.
+    #[must_use]
+    pub fn extent(&self) -> Crop {
+        self.crop.unwrap_or(Crop::all(self.width, self.height))
+    }
+
+    /// Checks that there is such a picture.
+    ///
+    /// # Errors
+    /// The first field that is out of its range.
+    pub fn validate(&self) -> Result<(), RenderError> {
+        let Self {
+            width,
+            height,
+            spp,
+            max_depth,
+            ..
+        } = *self;
+        let extent = self.extent();
+        if width == 0 || height == 0 {
+            Err(RenderError::EmptyPicture { width, height })
+        } else if width > MAX_SIDE || height > MAX_SIDE {
+            Err(RenderError::PictureTooLarge { width, height })
+        } else if !extent.is_within(width, height) {
+            Err(RenderError::CropOutside {
+                crop: extent,
+                width,
+                height,
+            })
+        } else if extent.pixels() > MAX_PIXELS {
+            Err(RenderError::FilmTooLarge {
+                pixels: extent.pixels(),
+            })
+        } else if !(1..=MAX_SPP).contains(&spp) {
+            Err(RenderError::SamplesOutOfRange { spp })
+        } else if max_depth > MAX_DEPTH {
+            Err(RenderError::DepthOutOfRange { max_depth })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_is_valid() {
+        assert_eq!(Settings::default().validate(), Ok(()));
+    }
+
+    #[test]
+    fn what_makes_no_picture_is_named() {
+        let good = Settings::default();
+        let crop = |x0, y0, x1, y1| Settings {
+            crop: Some(Crop { x0, y0, x1, y1 }),
+            ..good.clone()
+        };
+        let bad = [
+            Settings {
+                width: 0,
+                ..good.clone()
+            },
+            Settings {
+                height: MAX_SIDE + 1,
+                ..good.clone()
+            },
+            Settings {
+                width: MAX_SIDE,
+                height: MAX_SIDE,
+                ..good.clone()
+            },
+            Settings {
+                spp: 0,
+                ..good.clone()
+            },
+            Settings {
+                max_depth: u32::MAX,
+                ..good.clone()
+            },
+            crop(5, 5, 5, 9),
+            crop(9, 0, 5, 9),
+            crop(0, 0, 961, 1),
+            crop(u32::MAX - 1, 0, u32::MAX, 1),
+        ];
+        for settings in bad {
+            assert!(settings.validate().is_err(), "{settings:?}");
+        }
+        assert_eq!(crop(959, 539, 960, 540).validate(), Ok(()));
+    }
+}
