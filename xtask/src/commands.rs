@@ -105,7 +105,7 @@ impl<'a> Manual<'a> {
             }
         }
         let elsewhere = |word: &&str| matches!(*word, "-p" | "--package" | "--example");
-        let runs_ombra = *subcommand == "run" && !ours.iter().any(|word| elsewhere(&word));
+        let runs_ombra = *subcommand == "run" && !ours.iter().any(elsewhere);
         match theirs {
             [_, rest @ ..] if runs_ombra => self.ombra(rest),
             _ => Ok(()),
