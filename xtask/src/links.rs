@@ -32,7 +32,8 @@ pub(crate) fn pages() -> Result<BTreeMap<PathBuf, Page>> {
 pub(crate) fn run() -> Result<()> {
     let pages = pages()?;
     let exists = |path: &Path| cargo::root().join(path).exists();
-    let findings = check(&pages, exists);
+    let mut findings = check(&pages, exists);
+    findings.extend(unlisted(&pages));
     if !findings.is_empty() {
         bail!("{}", findings.join("\n"));
     }
@@ -74,6 +75,22 @@ fn check(pages: &BTreeMap<PathBuf, Page>, exists: impl Fn(&Path) -> bool) -> Vec
         }
     }
     findings
+}
+
+/// The pages of docs/ that its index does not name, a line each.
+fn unlisted(pages: &BTreeMap<PathBuf, Page>) -> Vec<String> {
+    let index = Path::new("docs/README.md");
+    let named = |name: &str| {
+        let page = pages.get(index);
+        page.is_some_and(|page| page.links.iter().any(|link| link.text == name))
+    };
+    pages
+        .keys()
+        .filter(|page| page.starts_with("docs") && *page != index)
+        .filter_map(|page| page.strip_prefix("docs").ok()?.to_str())
+        .filter(|name| !named(name))
+        .map(|name| format!("docs/README.md does not name docs/{name}"))
+        .collect()
 }
 
 /// A path without `.` and `..`; `None` if it leaves the root.
@@ -127,6 +144,21 @@ mod tests {
                 "docs/page.md:2: the link \"../README.md#nothing\" names no heading there",
                 "docs/page.md:2: the link \"../../outside.md\" leads out of the checkout",
             ]
+        );
+    }
+
+    #[test]
+    fn a_page_that_the_index_does_not_name_is_found() {
+        let pages = [
+            ("docs/README.md", "[Structures](structures.md)"),
+            ("docs/structures.md", ""),
+            ("docs/lost.md", ""),
+            ("README.md", ""),
+        ];
+        let pages = pages.map(|(file, text)| (PathBuf::from(file), Page::parse(text)));
+        assert_eq!(
+            unlisted(&pages.into()),
+            ["docs/README.md does not name docs/lost.md"]
         );
     }
 
