@@ -62,8 +62,8 @@ impl TriangleMesh {
             .sum()
     }
 
-    /// How many triangles can never be hit: their corners lie on one line or are the same, or one is
-    /// not finite.
+    /// How many triangles have no area: their corners lie on one line or are the same, or one is not
+    /// finite.
     ///
     /// The arithmetic is exact for corners whose coordinates span less than eight decimal orders of
     /// magnitude, so that a thin triangle is not taken for one without area.

@@ -89,6 +89,8 @@ impl ConvexPolyhedron {
             .iter()
             .map(|(point, _)| (*point - centre).length())
             .fold(0.0, f64::max);
+        // Planes all through one point give no size; what is between them is endless.
+        let reach = if reach > 0.0 { reach } else { 1.0 };
         let equations: Vec<_> = planes.iter().map(relative).collect();
         let faces = faces_of(&equations, reach)?;
         Ok(Self { centre, faces })
@@ -231,6 +233,8 @@ mod tests {
         assert_eq!(none, Err(ShapeError::Unbounded));
         let open = ConvexPolyhedron::from_half_spaces(&cube()[..5]);
         assert_eq!(open, Err(ShapeError::Unbounded));
+        let one = ConvexPolyhedron::from_half_spaces(&cube()[..1]);
+        assert_eq!(one, Err(ShapeError::Unbounded));
         let nan = ConvexPolyhedron::from_half_spaces(&[half_space([f32::NAN; 3], [1.0; 3])]);
         assert!(matches!(nan, Err(ShapeError::NotFinite { .. })));
     }

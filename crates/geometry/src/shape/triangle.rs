@@ -58,6 +58,8 @@ impl Surface for Triangle {
         let corners = self.corners.map(Point3::wide);
         Watertight::new(ray)
             .crossing(ray, corners, EdgeRule::Closed)
+            // Rounding can give a needle some area; on its own it has none.
+            .filter(|_| self.validate().is_ok())
             .into_iter()
             .collect()
     }

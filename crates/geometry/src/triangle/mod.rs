@@ -24,7 +24,9 @@ pub trait TriangleKernel<T: Real>: Sized {
 
     /// Where the ray crosses a triangle, `u` and `v` being the barycentric weights of the second
     /// and third corner; `None` if it does not, or outside the ray's `[t_min, t_max]`. Both sides
-    /// count. A triangle with a NaN corner or without area is never crossed.
+    /// count. A triangle with a NaN corner or with two corners in one place is never crossed. One
+    /// whose three corners lie on a line is not either, unless rounding in the test gives it some
+    /// area; the watertight test must count it then, or a mesh that has such triangles would leak.
     fn crossing(&self, ray: &Ray<T>, corners: [Point3<T>; 3], rule: EdgeRule) -> Option<Crossing>;
 }
 
