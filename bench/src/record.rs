@@ -25,6 +25,9 @@ pub struct Record {
     pub seconds: Option<Spread>,
     /// Seconds over those of the first contestant, round by round.
     pub ratio: Option<Spread>,
+    /// The least seconds over the least of the first contestant: what is left of the ratio where
+    /// other programs disturb most rounds but not all.
+    pub ratio_of_least: Option<f64>,
 }
 
 impl Record {
@@ -44,12 +47,14 @@ impl fmt::Display for Record {
             "{:<10} {job:<16} {threads:>3} thr  {who:<14}",
             self.bench
         )?;
-        let (Some(seconds), Some(ratio)) = (self.seconds, self.ratio) else {
+        let (Some(seconds), Some(ratio), Some(least)) =
+            (self.seconds, self.ratio, self.ratio_of_least)
+        else {
             return write!(f, " same answer, {} rays", self.rays);
         };
         write!(
             f,
-            " {:>9.2} ms  {:>7.3} Mrays/s  ratio {:.3} ({:.3} to {:.3})",
+            " {:>9.2} ms  {:>7.3} Mrays/s  ratio {:.3} ({:.3} to {:.3}), of the least {least:.3}",
             seconds.median * 1e3,
             self.rays_per_second().unwrap_or_default() / 1e6,
             ratio.median,

@@ -50,8 +50,11 @@ fn run(settings: &Settings) -> anyhow::Result<Vec<Record>> {
                 "{threads} threads give another picture"
             );
             let times = cpu.install(|| times(&contestants, settings.rounds));
+            let least = |seconds: &[f64]| Spread::of(seconds).map(|spread| spread.least);
             for (contestant, seconds) in contestants.iter().zip(&times) {
+                let pair = least(seconds).zip(least(&times[0]));
                 records.push(Record {
+                    ratio_of_least: pair.map(|(own, base)| own / base),
                     bench: BENCH.name,
                     job: job.to_owned(),
                     contestant: contestant.name,

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use crate::search::Search;
 use crate::{
-    AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, StructureKind,
-    Traversable, TraversalRay, Visitor,
+    AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, Statistics,
+    StructureKind, Traversable, TraversalRay, Visitor,
 };
 
 /// Primitives with a structure over them.
@@ -81,14 +81,14 @@ impl<P: Primitives> Accel<P> {
     }
 }
 
-impl<P: Primitives> Traversable for Accel<P> {
-    #[inline]
-    fn search<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+impl<P: Primitives> Accel<P> {
+    /// See [`Traversable::search`].
+    pub(crate) fn search_with<C: Counter>(
         &self,
         ray: &Ray<f64>,
         rule: EdgeRule,
         counter: &mut C,
-        any_hit: F,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Candidate> {
         let ray = TraversalRay::new(ray, &self.reach)?;
         let mut search = Search::new(&self.primitives, &ray, rule, counter, any_hit);
@@ -97,6 +97,21 @@ impl<P: Primitives> Traversable for Accel<P> {
             let _ = self.structure.traverse(&ray, &mut search);
         }
         search.best()
+    }
+}
+
+impl<P: Primitives> Traversable for Accel<P> {
+    fn search(
+        &self,
+        ray: &Ray<f64>,
+        rule: EdgeRule,
+        statistics: Option<&mut Statistics>,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
+    ) -> Option<Candidate> {
+        match statistics {
+            None => self.search_with(ray, rule, &mut (), any_hit),
+            Some(statistics) => self.search_with(ray, rule, statistics, any_hit),
+        }
     }
 
     fn bounds(&self) -> Aabb {

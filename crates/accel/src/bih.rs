@@ -6,6 +6,9 @@
 //!
 //! The cut is found without looking for it: a box, at first around everything, is halved along its
 //! longest side, like the cells of an octree; primitives go by their centres.
+//!
+//! What the two planes leave open is closed by a third kind of node, a slab: where primitives take
+//! much less room across some axis than the nodes above say, it says so.
 
 use std::ops::ControlFlow;
 
@@ -20,6 +23,9 @@ const LEAF: usize = 4;
 
 /// No leaf lies deeper than this; near it, lists are halved by number.
 const MAX_DEPTH: usize = 64;
+
+/// A slab is worth a node if primitives take less than this part of the room that they seem to have.
+const SLAB: f32 = 0.75;
 
 /// How often the box is halved for one node before the list is halved by number: so many steps
 /// take it from the range of single precision to its finest grain.
@@ -45,6 +51,8 @@ enum Node {
         /// Where the left part ends and the right one begins.
         clip: [f32; 2],
     },
+    /// Where everything below begins and ends. Its one child is the next node.
+    Slab { axis: Axis, clip: [f32; 2] },
 }
 
 const _: () = assert!(size_of::<Node>() == 16);
@@ -52,12 +60,15 @@ const _: () = assert!(size_of::<Node>() == 16);
 impl Structure for Bih {
     fn build(primitives: &[Bounded], _reach: &Reach) -> Self {
         let mut items = primitives.to_vec();
-        let bounds = items
-            .iter()
-            .fold(Aabb::EMPTY, |all, item| all.union(item.bounds));
+        let bounds = around(&items);
         let mut nodes = Vec::new();
         if !items.is_empty() {
-            grow(&mut items, 0, bounds, 0, &mut nodes);
+            let room = Room {
+                cell: bounds,
+                known: bounds,
+                depth: 0,
+            };
+            grow(&mut items, 0, room, &mut nodes);
         }
         nodes.shrink_to_fit();
         Self {
@@ -83,6 +94,12 @@ impl Structure for Bih {
                 Node::Leaf { first, count } => {
                     let leaf = first as usize..first as usize + count as usize;
                     visitor.leaf(&self.primitives[leaf], Span::ALL)?;
+                }
+                Node::Slab { axis, clip } => {
+                    visitor.node();
+                    next = interval
+                        .within(axis, clip, ray)
+                        .map(|interval| (index + 1, interval));
                 }
                 Node::Inner { axis, right, clip } => {
                     visitor.node();
@@ -153,27 +170,42 @@ impl Interval {
             ]
         }
     }
+    /// What lies between two planes.
+    #[inline]
+    fn within(self, axis: Axis, [lower, upper]: [f32; 2], ray: &TraversalRay) -> Option<Self> {
+        // Before the upper one, and of that what is behind the lower one.
+        let [before, _] = self.cut(axis, [upper, lower], ray);
+        let [_, behind] = before?.cut(axis, [upper, lower], ray);
+        behind
+    }
 }
 
 /// The part of the ray within a padded box.
 fn clipped_to(bounds: &Aabb, ray: &TraversalRay) -> Option<Interval> {
     let all = Interval::new(ray.ray.t_min, ray.ray.t_max);
     Axis::ALL.into_iter().fold(all, |interval, axis| {
-        // Before the upper face, and of that what is behind the lower one.
-        let faces = [bounds.max[axis], bounds.min[axis]];
-        let [before, _] = interval?.cut(axis, faces, ray);
-        let [_, behind] = before?.cut(axis, faces, ray);
-        behind
+        interval?.within(axis, [bounds.min[axis], bounds.max[axis]], ray)
     })
 }
 
-/// Appends the tree over `items`, which begin at `first` in the whole list. `cell` is the box that
-/// is halved.
+/// What is known of a place in the tree before it is filled.
+#[derive(Clone, Copy)]
+struct Room {
+    /// The box that is halved.
+    cell: Aabb,
+    /// What the planes above say of where the primitives are.
+    known: Aabb,
+    /// Cuts above this place.
+    depth: usize,
+}
+
+/// Appends the tree over `items`, which begin at `first` in the whole list.
 ///
-/// Everywhere `depth` + ⌈log₂ items⌉ ≤ [`MAX_DEPTH`]: any cut keeps that below the limit, halving
+/// Everywhere depth + ⌈log₂ items⌉ ≤ [`MAX_DEPTH`]: any cut keeps that below the limit, halving
 /// keeps it at the limit.
-fn grow(items: &mut [Bounded], first: u32, cell: Aabb, depth: usize, nodes: &mut Vec<Node>) {
+fn grow(items: &mut [Bounded], first: u32, room: Room, nodes: &mut Vec<Node>) {
     let count = items.len();
+    let known = add_slabs(&around(items), room.known, nodes);
     let place = nodes.len();
     nodes.push(Node::Leaf {
         first,
@@ -183,23 +215,47 @@ fn grow(items: &mut [Bounded], first: u32, cell: Aabb, depth: usize, nodes: &mut
         return;
     }
     let levels = count.next_power_of_two().ilog2() as usize;
-    let cut = if depth + levels < MAX_DEPTH {
-        cut_cell(items, cell)
+    let cut = if room.depth + levels < MAX_DEPTH {
+        cut_cell(items, room.cell)
     } else {
         None
     };
-    let Cut { axis, at, cells } = cut.unwrap_or_else(|| cut_by_number(items, cell));
+    let Cut { axis, at, cells } = cut.unwrap_or_else(|| cut_by_number(items, room.cell));
     let (left, right) = items.split_at_mut(at);
-    let all = |items: &[Bounded]| items.iter().fold(Aabb::EMPTY, |all, i| all.union(i.bounds));
-    let clip = [all(left).max[axis], all(right).min[axis]];
-    grow(left, first, cells[0], depth + 1, nodes);
+    let clip = [around(left).max[axis], around(right).min[axis]];
+    let mut rooms = cells.map(|cell| Room {
+        cell,
+        known,
+        depth: room.depth + 1,
+    });
+    rooms[0].known.max[axis] = clip[0];
+    rooms[1].known.min[axis] = clip[1];
+    grow(left, first, rooms[0], nodes);
     let right_place = nodes.len() as u32;
-    grow(right, first + at as u32, cells[1], depth + 1, nodes);
+    grow(right, first + at as u32, rooms[1], nodes);
     nodes[place] = Node::Inner {
         axis,
         right: right_place,
         clip,
     };
+}
+
+/// Appends slabs where `bounds` are much narrower than is known, and says what is known then.
+fn add_slabs(bounds: &Aabb, mut known: Aabb, nodes: &mut Vec<Node>) -> Aabb {
+    for axis in Axis::ALL {
+        let clip = [bounds.min[axis], bounds.max[axis]];
+        if clip[1] - clip[0] < SLAB * (known.max[axis] - known.min[axis]) {
+            nodes.push(Node::Slab { axis, clip });
+            [known.min[axis], known.max[axis]] = clip;
+        }
+    }
+    known
+}
+
+/// The box around some primitives.
+fn around(items: &[Bounded]) -> Aabb {
+    let boxes = items.iter().map(|item| item.bounds);
+    boxes.fold(Aabb::EMPTY, Aabb::union)
 }
 
 /// How a list is cut: `at` items on the left, and the box of either part.
@@ -240,4 +296,48 @@ fn cut_by_number(items: &mut [Bounded], cell: Aabb) -> Cut {
     let at = halve(items, axis);
     let cells = [cell; 2];
     Cut { axis, at, cells }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ombra_geometry::Point3;
+
+    fn built(centres: impl IntoIterator<Item = [f32; 3]>) -> (Bih, usize) {
+        let bounded = |(primitive, centre): (u32, [f32; 3])| Bounded {
+            bounds: Aabb::around([Point3::from(centre)]),
+            primitive,
+        };
+        let primitives: Vec<_> = (0..).zip(centres).map(bounded).collect();
+        let bih = Bih::build(&primitives, &Reach::of(&around(&primitives)));
+        (bih, primitives.len())
+    }
+
+    /// Leaves in the order of nodes hold the list from front to back.
+    fn assert_each_primitive_once((bih, count): (Bih, usize)) {
+        let mut end = 0;
+        for node in &bih.nodes {
+            if let &Node::Leaf { first, count } = node {
+                assert_eq!(first, end);
+                end += count;
+            }
+        }
+        assert_eq!(end as usize, count);
+        let mut primitives = bih.primitives;
+        primitives.sort_unstable();
+        assert!(primitives.into_iter().eq(0..count as u32));
+    }
+
+    #[test]
+    fn every_primitive_is_in_one_leaf_whatever_the_list() {
+        assert_each_primitive_once(built([]));
+        assert_each_primitive_once(built([[1.0, 2.0, 3.0]]));
+        assert_each_primitive_once(built(vec![[1e7; 3]; 5000]));
+        assert_each_primitive_once(built((0..5000).map(|i| [i as f32, 0.0, 0.0])));
+        assert_each_primitive_once(built((-120..120).map(|i| [2.0_f32.powi(i); 3])));
+        assert_each_primitive_once(built((0..100).map(|i| [(i as f32 - 50.0) * 6e36; 3])));
+        assert_each_primitive_once(built((0..100).map(|i| [f32::from_bits(i), 0.0, 0.0])));
+        let grain = (0..1000).map(|i| [f32::from_bits(1e7_f32.to_bits() + i % 3), 0.0, 1.0]);
+        assert_each_primitive_once(built(grain));
+    }
 }

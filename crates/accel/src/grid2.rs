@@ -6,7 +6,7 @@
 //! grid, over the part of the ray that the cell has.
 //!
 //! Kalojanov, Billeter, Slusallek, "Two-Level Grids for Ray Tracing on GPUs", Computer Graphics
-//! Forum 30(2), 2011, whose densities of the two levels these are (section 3); the older and deeper
+//! Forum 30(2), 2011, whose densities of the two levels these are; the older and deeper
 //! relative: Jevans, Wyvill, "Adaptive Voxel Subdivision for Ray Tracing", Graphics Interface 1989.
 
 use std::ops::ControlFlow;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ombra_geometry::{Aabb, EdgeRule, GeometryId, InstanceId, Object, Transform, World};
 
-use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Traversable, TraversalRay};
+use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Traversable as _, TraversalRay};
 
 /// One placement of a geometry.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub struct Instances<P> {
     /// In the order of `instances`; `None` where the placement moves nothing, so that a geometry
     /// placed as it is answers bit for bit like the geometry alone.
     object_from_world: Vec<Option<Transform<World, Object>>>,
+    /// In the order of `instances`: each hit asks for the box of its instance.
+    bounds: Vec<Aabb>,
 }
 
 impl<P: Primitives> Instances<P> {
@@ -45,10 +47,15 @@ impl<P: Primitives> Instances<P> {
             .iter()
             .map(|i| (!i.world_from_object.is_identity()).then(|| i.world_from_object.inverse()))
             .collect();
+        let bounds = instances
+            .iter()
+            .map(|i| bounds_of(i, &geometries[i.geometry.index()]))
+            .collect();
         Self {
             geometries,
             instances,
             object_from_world,
+            bounds,
         }
     }
 
@@ -73,14 +80,7 @@ impl<P: Primitives> Primitives for Instances<P> {
     }
 
     fn bounds(&self, primitive: u32) -> Aabb {
-        let instance = &self.instances[primitive as usize];
-        let geometry = &self.geometries[instance.geometry.index()];
-        // A hit found in object space can lie a little outside the geometry's bounds, and an uneven
-        // scale can make that more than this level allows for. Where nothing is moved it does not.
-        match self.object_from_world[primitive as usize] {
-            None => geometry.bounds(),
-            Some(_) => instance.world_from_object.aabb(&geometry.hit_bounds()),
-        }
+        self.bounds[primitive as usize]
     }
 
     fn prepare(&self, _ray: &TraversalRay, rule: EdgeRule) -> Self::Prepared {
@@ -105,7 +105,7 @@ impl<P: Primitives> Primitives for Instances<P> {
         };
         local.t_max = t_max;
         let mut terminated = ControlFlow::Continue(());
-        self.geometries[geometry.index()].search(&local, *rule, counter, |candidate| {
+        let mut place = |candidate: &Candidate| {
             let placed = Candidate {
                 geometry,
                 instance: InstanceId(primitive),
@@ -116,7 +116,8 @@ impl<P: Primitives> Primitives for Instances<P> {
                 terminated = ControlFlow::Break(());
             }
             answer
-        });
+        };
+        self.geometries[geometry.index()].search_with(&local, *rule, counter, &mut place);
         terminated
     }
 
@@ -124,5 +125,18 @@ impl<P: Primitives> Primitives for Instances<P> {
         self.geometries.iter().map(|g| g.bytes()).sum::<usize>()
             + size_of_val(self.instances.as_slice())
             + size_of_val(self.object_from_world.as_slice())
+            + size_of_val(self.bounds.as_slice())
+    }
+}
+
+/// The box around a placed geometry, and around every hit on it.
+fn bounds_of<P: Primitives>(instance: &Instance, geometry: &Accel<P>) -> Aabb {
+    // A hit found in object space can lie a little outside the geometry's bounds, and an uneven
+    // scale can make that more than the level above allows for. Where nothing is moved it does not.
+    if instance.world_from_object.is_identity() {
+        geometry.bounds()
+    } else {
+        let around_hits = geometry.hit_bounds();
+        instance.world_from_object.aabb(&around_hits)
     }
 }

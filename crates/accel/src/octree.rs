@@ -1,8 +1,8 @@
 //! The octree.
 //!
 //! The idea: a cube with too much in it is cut into eight, and so on. Empty space stays in large
-//! pieces, detail gets small ones, and where to cut is never a question. In a flat scene five of
-//! eight or more stay empty, and what remains is a quadtree.
+//! pieces, detail gets small ones, and where to cut is never a question. In a flat scene the
+//! upper four of each eight stay empty, and what remains is a quadtree.
 //!
 //! Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984. The traversal is in
 //! the spirit of Revelles, Ureña, Lastra, "An Efficient Parametric Algorithm for Octree Traversal",

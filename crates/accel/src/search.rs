@@ -8,28 +8,27 @@ use ombra_geometry::EdgeRule;
 use crate::{AnyHit, Candidate, Counter, Primitives, Span, TraversalRay, Visitor};
 
 /// A query under way.
-pub(crate) struct Search<'a, P: Primitives, C, F> {
+pub(crate) struct Search<'a, P: Primitives, C> {
     primitives: &'a P,
     prepared: P::Prepared,
     ray: &'a TraversalRay,
     counter: &'a mut C,
-    any_hit: F,
+    any_hit: &'a mut dyn FnMut(&Candidate) -> AnyHit,
     t_max: f64,
     best: Option<Candidate>,
 }
 
-impl<'a, P, C, F> Search<'a, P, C, F>
+impl<'a, P, C> Search<'a, P, C>
 where
     P: Primitives,
     C: Counter,
-    F: FnMut(&Candidate) -> AnyHit,
 {
     pub(crate) fn new(
         primitives: &'a P,
         ray: &'a TraversalRay,
         rule: EdgeRule,
         counter: &'a mut C,
-        any_hit: F,
+        any_hit: &'a mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Self {
         Self {
             primitives,
@@ -48,11 +47,10 @@ where
     }
 }
 
-impl<P, C, F> Visitor for Search<'_, P, C, F>
+impl<P, C> Visitor for Search<'_, P, C>
 where
     P: Primitives,
     C: Counter,
-    F: FnMut(&Candidate) -> AnyHit,
 {
     #[inline]
     fn t_max(&self) -> f64 {

@@ -2,21 +2,24 @@
 
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 
-use crate::{AnyHit, Candidate, Counter, Statistics};
+use crate::{AnyHit, Candidate, Statistics};
 
 /// Something that rays can be traced against: the one door to every structure.
 ///
 /// All questions are one search with a different word on each hit: accept it, ignore it, stop.
 /// A ray that is not valid (NaN, no direction) hits nothing.
+///
+/// The word on a hit is a `dyn` closure: it is asked a few times a ray, which costs nothing that can
+/// be measured, and in return every structure is compiled once and not once for every program.
 pub trait Traversable: Send + Sync {
     /// The search behind all questions: shows `any_hit` each hit that may still count, in no
     /// promised order, each crossing at most once, and returns the nearest that it accepted.
-    fn search<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+    fn search(
         &self,
         ray: &Ray<f64>,
         rule: EdgeRule,
-        counter: &mut C,
-        any_hit: F,
+        statistics: Option<&mut Statistics>,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Candidate>;
 
     /// The box around everything; unbounded if something in it is.
@@ -28,20 +31,20 @@ pub trait Traversable: Send + Sync {
     /// The closest hit.
     #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.trace(ray, |_| AnyHit::Accept)
+        self.trace(ray, &mut |_| AnyHit::Accept)
     }
 
     /// Whether there is any hit.
     #[inline]
     fn occluded(&self, ray: &Ray) -> bool {
-        self.trace(ray, |_| AnyHit::Terminate).is_some()
+        self.trace(ray, &mut |_| AnyHit::Terminate).is_some()
     }
 
     /// The closest of those hits that `any_hit` accepts.
     #[inline]
-    fn trace(&self, ray: &Ray, mut any_hit: impl FnMut(&Hit) -> AnyHit) -> Option<Hit> {
-        let any_hit = |candidate: &Candidate| any_hit(&candidate.hit());
-        self.search(&(*ray).into(), EdgeRule::Closed, &mut (), any_hit)
+    fn trace(&self, ray: &Ray, any_hit: &mut dyn FnMut(&Hit) -> AnyHit) -> Option<Hit> {
+        let mut any_hit = |candidate: &Candidate| any_hit(&candidate.hit());
+        self.search(&(*ray).into(), EdgeRule::Closed, None, &mut any_hit)
             .map(|candidate| candidate.hit())
     }
 
@@ -53,10 +56,11 @@ pub trait Traversable: Send + Sync {
     /// reports the touch.
     fn all_hits(&self, ray: &Ray, hits: &mut Vec<Hit>) {
         let mut found = Vec::new();
-        self.search(&(*ray).into(), EdgeRule::HalfOpen, &mut (), |candidate| {
+        let mut collect = |candidate: &Candidate| {
             found.push(*candidate);
             AnyHit::Ignore
-        });
+        };
+        self.search(&(*ray).into(), EdgeRule::HalfOpen, None, &mut collect);
         found.sort_unstable_by(|a, b| match (a.precedes(b), b.precedes(a)) {
             (true, _) => std::cmp::Ordering::Less,
             (_, true) => std::cmp::Ordering::Greater,
@@ -69,9 +73,9 @@ pub trait Traversable: Send + Sync {
     /// The closest hit, and what it cost to find.
     fn intersect_counted(&self, ray: &Ray) -> (Option<Hit>, Statistics) {
         let mut statistics = Statistics::default();
-        let closest = self.search(&(*ray).into(), EdgeRule::Closed, &mut statistics, |_| {
-            AnyHit::Accept
-        });
+        let counted = Some(&mut statistics);
+        let accept = &mut |_: &Candidate| AnyHit::Accept;
+        let closest = self.search(&(*ray).into(), EdgeRule::Closed, counted, accept);
         (closest.map(|candidate| candidate.hit()), statistics)
     }
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use ombra_accel::{
-    Accel, AnyHit, Counter, Geometry, Instance, Instances, Mesh, Primitives, Shapes, StructureKind,
-    Traversable,
+    Accel, AnyHit, Candidate, Geometry, Instance, Instances, Mesh, Primitives, Shapes, Statistics,
+    StructureKind, Traversable,
 };
 use ombra_geometry::shape::{Shape, Sphere};
 use ombra_geometry::{EdgeRule, GeometryId, Hit, Point3, Ray, Transform, TriangleMesh, Vector3};
@@ -175,11 +175,12 @@ fn bits(hit: &Hit) -> (u32, u32, u32, u32, u32, u32) {
 fn shown(accel: &impl Traversable, ray: &Ray) -> Vec<(u64, u32, u32)> {
     let mut shown = Vec::new();
     let closed = EdgeRule::Closed;
-    accel.search(&(*ray).into(), closed, &mut (), |candidate| {
+    let mut note = |candidate: &Candidate| {
         let (t, primitive) = (candidate.t, candidate.primitive.0);
         shown.push((t.to_bits(), primitive, candidate.instance.0));
         AnyHit::Ignore
-    });
+    };
+    accel.search(&(*ray).into(), closed, None, &mut note);
     shown.sort_unstable();
     shown
 }
@@ -322,23 +323,15 @@ fn instances_give_the_same_answers() {
 
 #[test]
 fn a_walk_visits_cells_and_counts_them() {
-    #[derive(Default)]
-    struct Nodes(u64);
-    impl Counter for Nodes {
-        fn node(&mut self) {
-            self.0 += 1;
-        }
-        fn test(&mut self) {}
-    }
     let geometry = mesh(soup(2000, 0.02, 15));
     for kind in KINDS {
         let accel = Accel::build(geometry.clone(), kind);
-        let mut nodes = Nodes::default();
+        let mut all = Statistics::default();
         let through = Ray::new(Point3::new(-3.0, 0.1, 0.2), Vector3::X);
-        accel.search(&through.into(), EdgeRule::Closed, &mut nodes, |_| {
-            AnyHit::Ignore
-        });
-        assert!((5..500).contains(&nodes.0), "{kind}: {} nodes", nodes.0);
+        let ignore = &mut |_: &Candidate| AnyHit::Ignore;
+        accel.search(&through.into(), EdgeRule::Closed, Some(&mut all), ignore);
+        let nodes = all.nodes_visited;
+        assert!((5..500).contains(&nodes), "{kind}: {nodes} nodes");
         let tests = accel.intersect_counted(&through).1.tests_made;
         assert!(tests < 500, "{kind}: {tests} tests of 2000");
     }

@@ -1,1 +1,43 @@
-//! TODO
+//! Files in and out: bytes to descriptions, and pictures to bytes. Nothing is traced here.
+//!
+//! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
+//! ([`read_model`]: OBJ with MTL, PLY, STL), and pictures ([`read_texture`], [`read_image`]); out go pictures ([`write_image`]: PNG,
+//! EXR, PFM, PPM). [`inspect`] says what a file holds.
+//!
+//! ```no_run
+//! use ombra_formats::{Limits, read_model};
+//!
+//! let model = read_model("bunny.obj", &Limits::default())?;
+//! for finding in &model.findings {
+//!     eprintln!("note: {finding}");
+//! }
+//! println!("{} triangles in {:?}", model.triangles(), model.bounds());
+//! # Ok::<(), ombra_formats::FormatError>(())
+//! ```
+//!
+//! # Broken files
+//! A reader never panics, never allocates for what a header promises, and opens no file outside the
+//! model's own folder. What it cannot read is a [`FormatError`] of one line that names the file, the
+//! line or byte, what is wrong there and what would be right; what it can pass over is a
+//! [`Finding`].
+
+pub mod scene;
+pub mod sha256;
+
+mod error;
+mod finding;
+mod image;
+mod info;
+mod limits;
+mod mesh;
+mod number;
+mod source;
+
+pub use error::{Fault, FormatError, IndexBase, Place};
+pub use finding::Finding;
+pub use image::{
+    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, read_image, read_texture, write_image,
+};
+pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
+pub use limits::Limits;
+pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, smooth_normals};

@@ -1,6 +1,6 @@
 //! What a program sees of the launch around it.
 
-use ombra_accel::{Candidate, Counter, Traversable};
+use ombra_accel::{Candidate, Statistics, Traversable};
 use ombra_geometry::{EdgeRule, Ray};
 
 use crate::{Exception, Pipeline, RayProgram, RayType};
@@ -73,10 +73,10 @@ impl<'a, P: Pipeline> Context<'a, P> {
     where
         P: RayProgram<R>,
     {
-        self.trace_counted::<R>(ray, payload, &mut ())
+        self.trace_counted::<R>(ray, payload, None)
     }
 
-    /// The same, counting the steps of the traversal.
+    /// The same, adding the steps of the traversal to `statistics` if there are any.
     ///
     /// # Errors
     /// As [`trace`](Self::trace).
@@ -85,7 +85,7 @@ impl<'a, P: Pipeline> Context<'a, P> {
         &mut self,
         ray: &Ray,
         payload: &mut R::Payload,
-        counter: &mut impl Counter,
+        statistics: Option<&mut Statistics>,
     ) -> Result<(), Exception>
     where
         P: RayProgram<R>,
@@ -98,22 +98,21 @@ impl<'a, P: Pipeline> Context<'a, P> {
         if self.stack_used() > STACK_LIMIT {
             return Err(Exception::StackOverflow { depth: self.depth });
         }
-        if !ray.is_valid() {
-            return Err(Exception::InvalidRay {
-                ray_type: R::NAME,
-                ray: *ray,
-            });
-        }
         self.rays += 1;
-        let any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);
+        let mut any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);
         let hit = pipeline
             .world()
-            .search(&(*ray).into(), EdgeRule::Closed, counter, any_hit)
+            .search(&(*ray).into(), EdgeRule::Closed, statistics, &mut any_hit)
             .map(|candidate| candidate.hit());
         self.depth += 1;
         let result = match &hit {
             Some(hit) => pipeline.closest_hit(self, ray, hit, payload),
-            None => pipeline.miss(self, ray, payload),
+            None if ray.is_valid() => pipeline.miss(self, ray, payload),
+            // A ray that is not valid hits nothing, so it is enough to look at those that miss.
+            None => Err(Exception::InvalidRay {
+                ray_type: R::NAME,
+                ray: *ray,
+            }),
         };
         self.depth -= 1;
         result

@@ -12,7 +12,7 @@ const LARGEST_CHUNK: usize = 256;
 
 /// Into how many chunks a launch is cut, if it has as many indices, so that one of few but heavy
 /// elements still keeps every thread busy, and all end together.
-const CHUNKS: usize = 4096;
+const CHUNKS: usize = 1024;
 
 /// Runs launches on the threads of this machine.
 #[derive(Clone, Debug)]

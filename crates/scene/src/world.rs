@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ombra_accel::{
-    Accel, AnyHit, Candidate, Counter, Geometry, Instance, Instances, Primitives as _,
+    Accel, AnyHit, Candidate, Geometry, Instance, Instances, Primitives as _, Statistics,
     StructureKind, Traversable,
 };
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
@@ -121,15 +121,14 @@ fn finite_bounds(scene: &Scene) -> Aabb {
 }
 
 impl Traversable for World {
-    #[inline]
-    fn search<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+    fn search(
         &self,
         ray: &Ray<f64>,
         rule: EdgeRule,
-        counter: &mut C,
-        any_hit: F,
+        statistics: Option<&mut Statistics>,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Candidate> {
-        self.accel.search(ray, rule, counter, any_hit)
+        self.accel.search(ray, rule, statistics, any_hit)
     }
 
     fn bounds(&self) -> Aabb {

@@ -1,9 +1,9 @@
 //! The bounding volume hierarchy: boxes within boxes.
 //!
 //! Made in three steps, each a value of its own:
-//! 1. a builder (`build`) halves the list of primitives again and again, down to single ones;
-//! 2. `collapse` joins small subtrees into leaves where the surface area heuristic says so;
-//! 3. `layout` writes the result as the flat array that `traverse` walks.
+//! 1. a [`Builder`] cuts the list of primitives in two again and again, down to single ones (`build`);
+//! 2. small subtrees become leaves where the surface area heuristic says so (`collapse`);
+//! 3. the result is written as one flat array (`layout`), along which rays walk (`traverse`).
 
 mod build;
 mod collapse;

@@ -3,8 +3,8 @@
 //! The idea: after a leaf, start again at the root, with a ray that begins where it left the leaf.
 //! No stack at all, at the price of going down from the root for every leaf.
 //!
-//! Foley, Sugerman, "KD-Tree Acceleration Structures for a GPU Raytracer", Graphics Hardware 2005,
-//! section 4.1. It ends because a leaf is always left later than it was entered: a plane that is
+//! Foley, Sugerman, "KD-Tree Acceleration Structures for a GPU Raytracer", Graphics Hardware 2005.
+//! It ends because a leaf is always left later than it was entered: a plane that is
 //! met at the very t where the ray begins counts as crossed.
 
 use std::ops::ControlFlow;

@@ -7,7 +7,7 @@
 //!
 //! Havran, Bittner, Žára, "Ray Tracing with Rope Trees", SCCG 1998; Popov, Günther, Seidel,
 //! Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", Computer Graphics
-//! Forum 26(3), 2007, whose way to make ropes this is (section 3.2).
+//! Forum 26(3), 2007, whose way to make ropes this is.
 //!
 //! Why it ends: call a plane crossed if the walk left a leaf through it. A leaf's far faces are
 //! planes that are met later than the ray's present t, or faces of the node that the rope led to,

@@ -4,7 +4,7 @@
 //! is dropped; when it is empty and the ray has not left the tree, something was dropped, and the
 //! walk starts again at the root as in kd-restart.
 //!
-//! Horn, Sugerman, Houston, Hanrahan, "Interactive k-D Tree GPU Raytracing", I3D 2007, section 3.
+//! Horn, Sugerman, Houston, Hanrahan, "Interactive k-D Tree GPU Raytracing", I3D 2007.
 //! Their other idea, to start again not at the root but at the lowest node that holds the whole
 //! rest of the ray ("push-down"), is left out, so that this walk differs from its two relatives in
 //! one thing only.
@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use super::node::{KdTree, Postponed};
 use crate::{Bounded, Reach, Structure, TraversalRay, Visitor};
 
-/// How many entries the stack has. Horn et al. find little to gain beyond 3 or 4.
+/// How many entries the stack has: with four, hardly any ray starts again.
 const ENTRIES: usize = 4;
 
 /// A kd-tree walked with a stack of four entries.

@@ -3,8 +3,7 @@
 //! The idea: at a plane that the ray crosses in the node, go to the near child and put the far one
 //! on a stack; after a leaf, take the last one put there. Each node is visited once at most.
 //!
-//! Havran, "Heuristic Ray Shooting Algorithms", PhD thesis, Czech Technical University, 2000,
-//! section 4.3 and appendix C (algorithm TA-B rec).
+//! Havran, "Heuristic Ray Shooting Algorithms", PhD thesis, Czech Technical University, 2000.
 
 use std::ops::ControlFlow;
 

@@ -194,7 +194,7 @@ fn a_program_that_goes_on_after_the_end_is_not_heard() {
     let unruly = Accel::build(Custom(Unruly), StructureKind::default());
     let ray = Ray::new(Point3::ORIGIN, Vector3::X);
     let mut asked = Vec::new();
-    let hit = unruly.trace(&ray, |hit| {
+    let hit = unruly.trace(&ray, &mut |hit| {
         asked.push(hit.t);
         AnyHit::Terminate
     });

@@ -38,7 +38,7 @@ impl RayGeneration for Cost<'_> {
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
         self.exposure.expose(cx.launch_index(), pixel, |ray, _| {
             let mut steps = Statistics::default();
-            cx.trace_counted::<View>(ray, &mut Rgb::default(), &mut steps)?;
+            cx.trace_counted::<View>(ray, &mut Rgb::default(), Some(&mut steps))?;
             let (nodes, tests) = (steps.nodes_visited as f32, steps.tests_made as f32);
             Ok(Rgb::new(nodes, tests, nodes + tests))
         })

@@ -1,0 +1,98 @@
+//! Pictures for surfaces: PNG, JPEG, TGA and BMP, decoded from sRGB to linear light.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use image::{DynamicImage, ImageReader};
+use ombra_scene::{Image, Rgb};
+
+use super::{ImageBuffer, check_size, image_fault};
+use crate::error::{Fault, FormatError};
+use crate::limits::Limits;
+
+/// Reads a PNG, JPEG, TGA or BMP file as a texture. Opacity is not read.
+///
+/// # Errors
+/// When the file cannot be opened, is broken, or has more pixels than `limits` allow, which is
+/// found out before they are decoded.
+pub fn read_texture(path: impl AsRef<Path>, limits: &Limits) -> Result<Image, FormatError> {
+    let path = path.as_ref();
+    let read = || {
+        let (width, height, pixels) = linear(decode(path, limits)?);
+        let count = pixels.len() as u64;
+        Image::new(width, height, pixels).ok_or_else(|| pixel_count(width, height, count))
+    };
+    read().map_err(|e| e.in_file(path))
+}
+
+/// The same with opacity as the channel "A".
+pub(super) fn read_png(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatError> {
+    let decoded = decode(path, limits)?;
+    let alpha = decoded.color().has_alpha().then(|| {
+        let rgba = decoded.to_rgba16();
+        let alpha = rgba.pixels().map(|p| f32::from(p[3]) / 65535.0);
+        alpha.collect()
+    });
+    let (width, height, pixels) = linear(decoded);
+    let image = ImageBuffer::new(width, height, pixels)?;
+    match alpha {
+        Some(alpha) => image.with_channel("A", alpha),
+        None => Ok(image),
+    }
+}
+
+pub(super) fn open(path: &Path) -> Result<ImageReader<BufReader<File>>, FormatError> {
+    let cannot = |action| move |source| FormatError::file(Fault::Io { action, source });
+    let reader = ImageReader::open(path).map_err(cannot("be opened"))?;
+    reader.with_guessed_format().map_err(cannot("be read"))
+}
+
+pub(super) fn name(reader: &ImageReader<BufReader<File>>) -> &'static str {
+    use image::ImageFormat;
+    match reader.format() {
+        Some(ImageFormat::Png) => "PNG",
+        Some(ImageFormat::Jpeg) => "JPEG",
+        Some(ImageFormat::Tga) => "TGA",
+        Some(ImageFormat::Bmp) => "BMP",
+        _ => "image",
+    }
+}
+
+fn decode(path: &Path, limits: &Limits) -> Result<DynamicImage, FormatError> {
+    let reader = open(path)?;
+    let name = name(&reader);
+    let (width, height) = (reader.into_dimensions()).map_err(|e| image_fault(name, &e))?;
+    check_size(width.into(), height.into(), limits)?;
+    let mut reader = open(path)?;
+    let mut library_limits = image::Limits::default();
+    // The most that a decoder may hold: sixteen bits in each of four channels.
+    library_limits.max_alloc = Some(limits.image_pixels.saturating_mul(8));
+    reader.limits(library_limits);
+    reader.decode().map_err(|e| image_fault(name, &e))
+}
+
+fn linear(decoded: DynamicImage) -> (u32, u32, Vec<Rgb>) {
+    let (width, height) = (decoded.width(), decoded.height());
+    let deep = decoded.color().bytes_per_pixel() / decoded.color().channel_count() > 1;
+    let pixels = if deep {
+        let pixels = decoded.into_rgb16();
+        let decode = |p: &image::Rgb<u16>| Rgb::from_srgb(p.0.map(|x| f32::from(x) / 65535.0));
+        pixels.pixels().map(decode).collect()
+    } else {
+        // There are only 256 values, and many millions of pixels.
+        let table: [f32; 256] = std::array::from_fn(|i| Rgb::from_srgb([i as f32 / 255.0; 3]).r);
+        let pixels = decoded.into_rgb8();
+        let decode = |p: &image::Rgb<u8>| Rgb::from(p.0.map(|x| table[usize::from(x)]));
+        pixels.pixels().map(decode).collect()
+    };
+    (width, height, pixels)
+}
+
+fn pixel_count(width: u32, height: u32, pixels: u64) -> FormatError {
+    FormatError::file(Fault::PixelCount {
+        width: width.into(),
+        height: height.into(),
+        pixels,
+    })
+}

@@ -1,0 +1,201 @@
+//! MTL, the materials of OBJ files ("Advanced Visualizer Manual", appendix B, Wavefront
+//! Technologies, 1992), as Whitted's materials.
+
+mod definition;
+
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ombra_scene::{Image, Material, Rgb, Texture};
+
+use super::obj::Unused;
+use super::reference::resolve;
+use crate::error::{Fault, FormatError, quoted};
+use crate::finding::Finding;
+use crate::image::read_texture;
+use crate::limits::Limits;
+use crate::number::Words;
+use crate::source::Source;
+
+use definition::Definition;
+
+const TEXTURE: &str = "texture";
+
+/// The materials that the materials files of a model define, and the textures loaded so far.
+pub(super) struct Library {
+    folder: PathBuf,
+    definitions: HashMap<String, Definition>,
+    images: HashMap<PathBuf, Arc<Image>>,
+    /// What is left of it for textures.
+    limits: Limits,
+}
+
+impl Library {
+    /// Reads the materials files of a model in `folder`. A name that is not there as a whole may be
+    /// several with blanks between.
+    pub(super) fn load(
+        folder: &Path,
+        names: &[String],
+        limits: &Limits,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Self, FormatError> {
+        const WHAT: &str = "materials file";
+        let mut library = Self {
+            folder: folder.to_owned(),
+            definitions: HashMap::new(),
+            images: HashMap::new(),
+            limits: limits.clone(),
+        };
+        let mut seen = HashSet::new();
+        for name in names.iter().filter(|name| seen.insert(name.as_str())) {
+            let several = name.split_whitespace().count() > 1;
+            match resolve(folder, name, WHAT) {
+                Ok(path) => library.read_file(&path, name, findings)?,
+                Err(_) if several => {
+                    for name in name.split_whitespace() {
+                        match resolve(folder, name, WHAT) {
+                            Ok(path) => library.read_file(&path, name, findings)?,
+                            Err(finding) => findings.push(finding),
+                        }
+                    }
+                }
+                Err(finding) => findings.push(finding),
+            }
+        }
+        Ok(library)
+    }
+
+    fn read_file(
+        &mut self,
+        path: &Path,
+        name: &str,
+        findings: &mut Vec<Finding>,
+    ) -> Result<(), FormatError> {
+        // The user knows the file by the model's folder, not by where links lead.
+        let shown = self.folder.join(name);
+        let mut source = Source::open(path, &self.limits).map_err(|e| e.in_file(&shown))?;
+        self.read(&mut source, name, findings)
+            .map_err(|e| e.in_file(&shown))
+    }
+
+    fn read(
+        &mut self,
+        source: &mut Source<'_>,
+        file: &str,
+        findings: &mut Vec<Finding>,
+    ) -> Result<(), FormatError> {
+        let mut unused = Unused::default();
+        let mut current: Option<(String, Definition)> = None;
+        while let Some(line) = source.joined_line()? {
+            let mut words = Words(line.bytes);
+            match words.next() {
+                None | Some([b'#', ..]) => {}
+                Some(b"newmtl") => {
+                    let name = String::from_utf8_lossy(words.0.trim_ascii()).into_owned();
+                    self.define(current.replace((name, Definition::default())));
+                }
+                Some(keyword) => {
+                    let at_line = |fault| FormatError::line(line.number, fault);
+                    let (_, definition) = current.as_mut().ok_or_else(|| {
+                        let (found, expected) = (quoted(keyword), "newmtl NAME");
+                        at_line(Fault::Unexpected { found, expected })
+                    })?;
+                    if !definition.set(keyword, words).map_err(at_line)? {
+                        unused.count(keyword, line.number);
+                    }
+                }
+            }
+        }
+        self.define(current);
+        unused.report(Some(file), findings);
+        Ok(())
+    }
+
+    /// The first definition of a name holds.
+    fn define(&mut self, definition: Option<(String, Definition)>) {
+        if let Some((name, definition)) = definition {
+            self.definitions.entry(name).or_insert(definition);
+        }
+    }
+
+    /// The material that a model calls `name`, with its texture; default grey if it is not defined.
+    pub(super) fn take(
+        &mut self,
+        name: &str,
+        line: u64,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Material, FormatError> {
+        let Some(definition) = self.definitions.remove(name) else {
+            let name = name.to_owned();
+            findings.push(Finding::UndefinedMaterial {
+                name: name.clone(),
+                line,
+            });
+            return Ok(Material {
+                name,
+                ..Material::default()
+            });
+        };
+        let mut material = definition.material(name);
+        for option in definition.unused_map_options() {
+            findings.push(Finding::Unused {
+                what: "map option",
+                name: option.clone(),
+                count: 1,
+                file: None,
+                line: None,
+            });
+        }
+        if let Some(texture) = definition.texture() {
+            match resolve(&self.folder, texture, TEXTURE) {
+                Ok(path) => {
+                    let image = self.image(&path, texture)?;
+                    let factor = material.diffuse.average();
+                    material.diffuse = Texture::Image(self.tinted(image, factor)?);
+                }
+                Err(finding) => findings.push(finding),
+            }
+        }
+        Ok(material)
+    }
+
+    fn image(&mut self, path: &Path, name: &str) -> Result<Arc<Image>, FormatError> {
+        if let Some(image) = self.images.get(path) {
+            return Ok(Arc::clone(image));
+        }
+        let shown = self.folder.join(name);
+        let image = read_texture(path, &self.limits).map_err(|e| e.in_file(&shown))?;
+        self.account(&image).map_err(|e| e.in_file(&shown))?;
+        let image = Arc::new(image);
+        self.images.insert(path.to_owned(), Arc::clone(&image));
+        Ok(image)
+    }
+
+    /// The picture times Kd. Black counts as white: exporters write it where the picture alone is
+    /// meant.
+    fn tinted(&mut self, image: Arc<Image>, factor: Rgb) -> Result<Arc<Image>, FormatError> {
+        if factor == Rgb::WHITE || factor.is_black() {
+            return Ok(image);
+        }
+        self.account(&image)?;
+        let pixels = image.pixels().iter().map(|&p| p * factor).collect();
+        let tinted = Image::new(image.width(), image.height(), pixels);
+        Ok(tinted.map_or(image, Arc::new))
+    }
+
+    /// Takes the pixels of an image from what may still be loaded.
+    fn account(&mut self, image: &Image) -> Result<(), FormatError> {
+        let (width, height) = (u64::from(image.width()), u64::from(image.height()));
+        let limit = self.limits.image_pixels;
+        let left = limit.checked_sub(width * height);
+        self.limits.image_pixels = left.ok_or_else(|| {
+            FormatError::file(Fault::ImageTooLarge {
+                width,
+                height,
+                limit,
+            })
+        })?;
+        Ok(())
+    }
+}

@@ -1,0 +1,375 @@
+//! From the words of a scene file to a scene.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+use ombra_accel::{Geometry, Mesh, Shapes};
+use ombra_geometry::triangle::TriangleTest;
+use ombra_geometry::{Angle, Object, Point3, Transform, Vector3, World};
+use ombra_scene::camera::{Orthographic, Panorama, Perspective, Pose, Projection, ThinLens};
+use ombra_scene::light::Falloff;
+use ombra_scene::{Camera, Light, Material, MaterialId, Rgb, Scene, Texture};
+use toml::Spanned;
+
+use super::description::{
+    CameraSpec, ColourSpec, Description, FalloffSpec, LightSpec, MaterialSpec, ObjectSpec,
+    ProjectionSpec, ScaleSpec, TextureSpec, TransformSpec,
+};
+use super::{Assets, Picture, SceneFile, line_of};
+use crate::error::{Fault, FormatError};
+use crate::finding::Finding;
+use crate::limits::Limits;
+use crate::mesh::smooth_normals;
+
+/// Where two triangles of a mesh without normals meet at less than this, the edge looks smooth.
+const CREASE: Angle = Angle::from_degrees(35.0);
+
+/// What everything else is built with.
+struct Builder<'a> {
+    text: &'a str,
+    assets: &'a Assets<'a>,
+    test: TriangleTest,
+    limits: &'a Limits,
+    scene: Scene,
+    named: BTreeMap<String, MaterialId>,
+    findings: Vec<Finding>,
+}
+
+pub(super) fn build(
+    description: Description,
+    text: &str,
+    assets: &Assets<'_>,
+    test: TriangleTest,
+    limits: &Limits,
+) -> Result<SceneFile, FormatError> {
+    let mut builder = Builder {
+        text,
+        assets,
+        test,
+        limits,
+        scene: Scene::default(),
+        named: BTreeMap::new(),
+        findings: Vec::new(),
+    };
+    builder.scene.background = colour("background", description.background)?;
+    builder.scene.ambient = colour("ambient", description.ambient)?;
+    for (name, spec) in description.materials {
+        builder.at(&spec, |b, spec| b.material(name, spec))?;
+    }
+    for spec in &description.lights {
+        builder.at(spec, Builder::light)?;
+    }
+    for (index, spec) in description.objects.iter().enumerate() {
+        builder.at(spec, |b, spec| b.object(index, spec))?;
+    }
+    if let Some(spec) = &description.camera {
+        builder.at(spec, Builder::camera)?;
+    }
+    let picture = Picture {
+        size: description.picture.size,
+        spp: description.picture.spp,
+    };
+    Ok(SceneFile {
+        scene: builder.scene,
+        picture,
+        findings: builder.findings,
+    })
+}
+
+impl Builder<'_> {
+    /// Builds what a part of the file describes; an error without a place gets that part's line.
+    fn at<T>(
+        &mut self,
+        spec: &Spanned<T>,
+        build: impl FnOnce(&mut Self, &T) -> Result<(), FormatError>,
+    ) -> Result<(), FormatError> {
+        let place = line_of(self.text, spec.span().start);
+        build(self, spec.get_ref()).map_err(|error| error.at(place))
+    }
+
+    fn material(&mut self, name: String, spec: &MaterialSpec) -> Result<(), FormatError> {
+        let default = Material::default();
+        let material = Material {
+            diffuse: match &spec.diffuse {
+                None => default.diffuse,
+                Some(texture) => self.texture(texture)?,
+            },
+            specular: colour("specular", spec.specular)?,
+            shininess: above_zero("shininess", spec.shininess.unwrap_or(default.shininess))?,
+            reflection: colour("reflection", spec.reflection)?,
+            transmission: colour("transmission", spec.transmission)?,
+            index_of_refraction: above_zero(
+                "index_of_refraction",
+                spec.index_of_refraction
+                    .unwrap_or(default.index_of_refraction),
+            )?,
+            fresnel: spec.fresnel,
+            emission: colour("emission", spec.emission)?,
+            name: name.clone(),
+        };
+        self.named
+            .insert(name, MaterialId(self.scene.materials.len() as u32));
+        self.scene.materials.push(material);
+        Ok(())
+    }
+
+    fn texture(&self, spec: &TextureSpec) -> Result<Texture, FormatError> {
+        match spec {
+            TextureSpec::Constant(constant) => Ok(colour("diffuse", *constant)?.into()),
+            TextureSpec::Checker(spec) => {
+                let [a, b] = spec.checker;
+                Ok(Texture::Checker {
+                    colours: [colour("checker", a)?, colour("checker", b)?],
+                    size: above_zero("size", spec.size)?,
+                })
+            }
+            TextureSpec::Image(spec) => {
+                Ok(Texture::Image(self.assets.image(&spec.image, self.limits)?))
+            }
+        }
+    }
+
+    fn light(&mut self, spec: &LightSpec) -> Result<(), FormatError> {
+        let light = match spec {
+            LightSpec::Point(spec) => Light::Point {
+                position: point("position", spec.position)?,
+                intensity: colour("intensity", spec.intensity)?,
+                falloff: spec.falloff.into(),
+            },
+            LightSpec::Directional(spec) => Light::Directional {
+                direction: direction("direction", spec.direction)?,
+                intensity: colour("intensity", spec.intensity)?,
+            },
+            LightSpec::Spot(spec) => {
+                if !(0.0 <= spec.inner && spec.inner <= spec.outer && spec.outer <= 180.0) {
+                    return Err(wrong(format!(
+                        "inner is {} and outer {}; degrees with 0 <= inner <= outer <= 180 are \
+                         needed",
+                        spec.inner, spec.outer
+                    )));
+                }
+                Light::Spot {
+                    position: point("position", spec.position)?,
+                    direction: direction("direction", spec.direction)?,
+                    inner: Angle::from_degrees(spec.inner),
+                    outer: Angle::from_degrees(spec.outer),
+                    intensity: colour("intensity", spec.intensity)?,
+                    falloff: spec.falloff.into(),
+                }
+            }
+        };
+        self.scene.lights.push(light);
+        Ok(())
+    }
+
+    fn object(&mut self, index: usize, spec: &ObjectSpec) -> Result<(), FormatError> {
+        let name = spec
+            .name
+            .clone()
+            .unwrap_or_else(|| format!("object {index}"));
+        let placed = placement(&spec.transform)?;
+        let material = spec
+            .material
+            .as_deref()
+            .map(|m| self.material_named(m))
+            .transpose()?;
+        match (&spec.shape, &spec.mesh) {
+            (Some(shape), None) => {
+                let geometry = Geometry::Shapes(Shapes(vec![shape.build()?]));
+                let material = match material {
+                    Some(material) => material,
+                    None => self.default_material(),
+                };
+                self.scene.place(name, geometry, material, placed);
+                Ok(())
+            }
+            (None, Some(mesh)) => self.model(&name, &mesh.file, material, placed),
+            _ => Err(wrong(format!("{name} needs either a shape or a mesh"))),
+        }
+    }
+
+    fn model(
+        &mut self,
+        name: &str,
+        file: &str,
+        material: Option<MaterialId>,
+        placed: Transform<Object, World>,
+    ) -> Result<(), FormatError> {
+        let model = self.assets.model(file, self.limits)?;
+        self.findings.extend(model.findings);
+        let first = self.scene.materials.len();
+        if material.is_none() {
+            self.scene.materials.extend(model.materials);
+        }
+        for part in model.parts {
+            let mesh = match part.mesh.normals() {
+                Some(_) => part.mesh,
+                None => smooth_normals(&part.mesh, CREASE).map_err(FormatError::file)?,
+            };
+            let geometry = Geometry::Mesh(Mesh::with_test(mesh, self.test));
+            let own = MaterialId((first + part.material) as u32);
+            let name = format!("{name}, {}", part.name);
+            self.scene
+                .place(name, geometry, material.unwrap_or(own), placed);
+        }
+        Ok(())
+    }
+
+    fn camera(&mut self, spec: &CameraSpec) -> Result<(), FormatError> {
+        let position = point("position", spec.position)?;
+        let up = direction("up", spec.up.unwrap_or([0.0, 1.0, 0.0]))?;
+        let toward = match (spec.look_at, spec.direction) {
+            (Some(target), None) => point("look_at", target)? - position,
+            (None, Some(toward)) => direction("direction", toward)?,
+            _ => {
+                return Err(wrong(
+                    "the camera needs either look_at or direction".to_owned(),
+                ));
+            }
+        };
+        let pose = Pose::new(position, toward, up).map_err(|e| wrong(e.to_string()))?;
+        let projection = match &spec.projection {
+            ProjectionSpec::Perspective(spec) => Projection::Perspective(Perspective {
+                fov: fov(spec.fov)?,
+            }),
+            ProjectionSpec::ThinLens(spec) => {
+                let lens_radius = spec.lens_radius;
+                if !(0.0..=f32::MAX).contains(&lens_radius) {
+                    return Err(wrong(format!(
+                        "lens_radius is {lens_radius}; 0 or more is needed"
+                    )));
+                }
+                Projection::ThinLens(ThinLens {
+                    fov: fov(spec.fov)?,
+                    lens_radius,
+                    focus_distance: above_zero("focus_distance", spec.focus_distance)?,
+                })
+            }
+            ProjectionSpec::Orthographic(spec) => Projection::Orthographic(Orthographic {
+                height: above_zero("height", spec.height)?,
+            }),
+            ProjectionSpec::Panorama(_) => Projection::Panorama(Panorama),
+        };
+        self.scene.up = up;
+        self.scene.camera = Some(Camera { pose, projection });
+        Ok(())
+    }
+
+    fn material_named(&self, name: &str) -> Result<MaterialId, FormatError> {
+        self.named.get(name).copied().ok_or_else(|| {
+            let known: Vec<_> = self.named.keys().map(String::as_str).collect();
+            let known = if known.is_empty() {
+                "none".to_owned()
+            } else {
+                known.join(", ")
+            };
+            wrong(format!(
+                "material \"{name}\" is not defined; defined are: {known}"
+            ))
+        })
+    }
+
+    fn default_material(&mut self) -> MaterialId {
+        self.scene.materials.push(Material::default());
+        MaterialId(self.scene.materials.len() as u32 - 1)
+    }
+}
+
+impl From<FalloffSpec> for Falloff {
+    fn from(spec: FalloffSpec) -> Self {
+        match spec {
+            FalloffSpec::None => Self::None,
+            FalloffSpec::InverseSquare => Self::InverseSquare,
+        }
+    }
+}
+
+/// Steps taken in the order in which they are written.
+fn placement(steps: &[TransformSpec]) -> Result<Transform<Object, World>, FormatError> {
+    let mut all = Transform::<Object, Object>::identity();
+    for step in steps {
+        let next = match step {
+            TransformSpec::Translate(offset) => Transform::translation((*offset).into()),
+            TransformSpec::Rotate(spec) => {
+                Transform::rotation(spec.axis.into(), spec.degrees.to_radians())
+            }
+            TransformSpec::Scale(spec) => {
+                let factors = match *spec {
+                    ScaleSpec::Uniform(factor) => [factor; 3],
+                    ScaleSpec::Axes(factors) => factors,
+                };
+                if !factors.iter().all(|f| f.is_finite() && *f != 0.0) {
+                    return Err(wrong(format!("scale is {factors:?}; no factor may be 0")));
+                }
+                Transform::scale(factors.into())
+            }
+        };
+        all = all.then::<Object>(&next);
+    }
+    let placed: Transform<Object, World> = all.then(&Transform::identity());
+    // Numbers such as 1e300 may have overflowed on the way.
+    Transform::from_rows(*placed.rows()).map_err(|e| wrong(format!("transform: {e}")))
+}
+
+pub(super) fn wrong(message: String) -> FormatError {
+    FormatError::file(Fault::Description(message))
+}
+
+fn colour(what: impl Display, spec: ColourSpec) -> Result<Rgb, FormatError> {
+    let components = match spec {
+        ColourSpec::Grey(grey) => [grey; 3],
+        ColourSpec::Rgb(components) => components,
+    };
+    if components.iter().all(|c| (0.0..=f32::MAX).contains(c)) {
+        Ok(components.into())
+    } else {
+        Err(wrong(format!(
+            "{what} is {components:?}; colours are finite and not below 0"
+        )))
+    }
+}
+
+pub(super) fn point(what: impl Display, p: [f32; 3]) -> Result<Point3, FormatError> {
+    finite(what, p).map(Point3::from)
+}
+
+pub(super) fn vector(what: impl Display, v: [f32; 3]) -> Result<Vector3, FormatError> {
+    finite(what, v).map(Vector3::from)
+}
+
+pub(super) fn direction(what: impl Display, v: [f32; 3]) -> Result<Vector3, FormatError> {
+    if v == [0.0; 3] {
+        return Err(wrong(format!("{what} is zero; it needs a length")));
+    }
+    vector(what, v)
+}
+
+fn finite(what: impl Display, numbers: [f32; 3]) -> Result<[f32; 3], FormatError> {
+    if numbers.iter().all(|x| x.is_finite()) {
+        Ok(numbers)
+    } else {
+        Err(wrong(format!(
+            "{what} is {numbers:?}; finite numbers are needed"
+        )))
+    }
+}
+
+fn above_zero(what: impl Display, number: f32) -> Result<f32, FormatError> {
+    if number > 0.0 && number.is_finite() {
+        Ok(number)
+    } else {
+        Err(wrong(format!(
+            "{what} is {number}; a finite number above 0 is needed"
+        )))
+    }
+}
+
+fn fov(degrees: f32) -> Result<Angle, FormatError> {
+    if degrees > 0.0 && degrees < 180.0 {
+        Ok(Angle::from_degrees(degrees))
+    } else {
+        Err(wrong(format!(
+            "fov is {degrees}; degrees between 0 and 180 are needed"
+        )))
+    }
+}
