@@ -18,8 +18,8 @@ pub(crate) struct Item {
     pub(crate) text: String,
 }
 
-/// The languages of code blocks that hold commands.
-const SHELLS: [&str; 4] = ["sh", "bash", "shell", "console"];
+/// The languages of code blocks that hold commands. A block that names none may hold some.
+const SHELLS: [&str; 5] = ["", "sh", "bash", "shell", "console"];
 
 impl Page {
     /// Takes a page apart.
