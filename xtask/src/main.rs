@@ -1,2 +1,65 @@
-//! TODO
-fn main() {}
+//! What the house checks about itself: `cargo xtask test` is everything that CI runs.
+//!
+//! One file a task. None of them imports a crate of ombra, so that the checks build in seconds and
+//! run on a tree that does not compile.
+
+mod cargo;
+mod commands;
+mod deny;
+mod examples;
+mod layers;
+mod licences;
+mod links;
+mod markdown;
+mod members;
+mod pictures;
+mod test;
+mod words;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The upkeep of the checkout.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Cli {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Run everything that CI runs, quick checks first; stop at the first that fails
+    Test,
+    /// Check who imports whom against the table in xtask/src/layers.rs
+    Layers,
+    /// Check dependencies with cargo-deny: bans, licences, sources, advisories
+    Deny,
+    /// Check that links in Markdown files lead somewhere and that commands in them exist
+    Docs,
+    /// Check what all crates share, the licence files, and the words that files may not hold
+    House,
+    /// Render the committed pictures of README.md and docs/ again
+    Pictures(pictures::Options),
+}
+
+fn main() -> ExitCode {
+    let done = match Cli::parse().task {
+        Task::Test => return test::run(),
+        Task::Layers => layers::run(),
+        Task::Deny => deny::run(),
+        Task::Docs => links::run().and_then(|()| commands::run(&cargo::executables()?)),
+        Task::House => members::run()
+            .and_then(|()| licences::run())
+            .and_then(|()| words::run()),
+        Task::Pictures(options) => pictures::run(&options),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
