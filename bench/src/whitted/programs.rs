@@ -73,6 +73,7 @@ impl RayGeneration for Whitted<'_> {
 }
 
 impl RayProgram<Radiance> for Whitted<'_> {
+    #[inline]
     fn closest_hit(
         &self,
         cx: &mut Context<'_, Self>,

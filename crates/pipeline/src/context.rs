@@ -93,10 +93,10 @@ impl<'a, P: Pipeline> Context<'a, P> {
         let pipeline = self.pipeline;
         let limit = pipeline.max_trace_depth();
         if self.depth >= limit {
-            return Err(Exception::DepthExceeded { limit });
+            return Err(depth_exceeded(limit));
         }
         if self.stack_used() > STACK_LIMIT {
-            return Err(Exception::StackOverflow { depth: self.depth });
+            return Err(stack_overflow(self.depth));
         }
         self.rays += 1;
         let mut any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);
@@ -109,10 +109,7 @@ impl<'a, P: Pipeline> Context<'a, P> {
             Some(hit) => pipeline.closest_hit(self, ray, hit, payload),
             None if ray.is_valid() => pipeline.miss(self, ray, payload),
             // A ray that is not valid hits nothing, so it is enough to look at those that miss.
-            None => Err(Exception::InvalidRay {
-                ray_type: R::NAME,
-                ray: *ray,
-            }),
+            None => Err(invalid::<R>(ray)),
         };
         self.depth -= 1;
         result
@@ -136,5 +133,25 @@ impl<'a, P: Pipeline> Context<'a, P> {
             index,
             length: buffer.len(),
         })
+    }
+}
+
+// Out of the way of what happens for every ray.
+
+#[cold]
+fn depth_exceeded(limit: u32) -> Exception {
+    Exception::DepthExceeded { limit }
+}
+
+#[cold]
+fn stack_overflow(depth: u32) -> Exception {
+    Exception::StackOverflow { depth }
+}
+
+#[cold]
+fn invalid<R: RayType>(ray: &Ray) -> Exception {
+    Exception::InvalidRay {
+        ray_type: R::NAME,
+        ray: *ray,
     }
 }
