@@ -193,7 +193,7 @@ impl Local {
         let point = world_from_object.inverse().point(on_ray);
         Self {
             point,
-            normal: shape.surface_at(point).normal,
+            normal: shape.normal_at(point),
             interpolated_normal: None,
             uv: [hit.u, hit.v],
             // Shapes are tested in double precision.

@@ -29,7 +29,15 @@ impl World {
         let geometries = scene
             .geometries
             .iter()
-            .map(|geometry| Arc::new(Accel::build(geometry.clone(), kind)))
+            .map(|geometry| {
+                // One primitive needs no structure: it is what the upper level has found.
+                let kind = if geometry.len() > 1 {
+                    kind
+                } else {
+                    StructureKind::BruteForce
+                };
+                Arc::new(Accel::build(geometry.clone(), kind))
+            })
             .collect();
         let instances = scene
             .objects

@@ -61,6 +61,12 @@ pub trait Surface {
     /// the nearest one on the surface.
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint;
 
+    /// The normal of [`surface_at`](Self::surface_at) alone, which may be cheaper.
+    #[inline]
+    fn normal_at(&self, point: Point3<f64>) -> Normal3<f64> {
+        self.surface_at(point).normal
+    }
+
     /// The area of the surface; infinite where the shape is.
     fn area(&self) -> f64;
 
@@ -194,6 +200,11 @@ impl Surface for Shape {
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         each!(self, shape => shape.surface_at(point))
+    }
+
+    #[inline]
+    fn normal_at(&self, point: Point3<f64>) -> Normal3<f64> {
+        each!(self, shape => shape.normal_at(point))
     }
 
     fn area(&self) -> f64 {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::error::{ShapeError, finite, positive};
 use super::frame::{report, turn, unit};
 use super::{Surface, SurfacePoint, SurfaceSample};
-use crate::{Aabb, Crossings, Point3, Ray, Vector3, sampling};
+use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 
 /// A sphere.
 ///
@@ -82,13 +82,16 @@ impl Surface for Sphere {
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
-        let outward = (point - self.centre.wide())
-            .normalized()
-            .unwrap_or(Vector3::new(0.0, 0.0, 1.0));
+        let normal = self.normal_at(point);
         SurfacePoint {
-            normal: outward.to_normal(),
-            uv: Self::uv(outward),
+            normal,
+            uv: Self::uv(normal.to_vector()),
         }
+    }
+
+    fn normal_at(&self, point: Point3<f64>) -> Normal3<f64> {
+        let outward = (point - self.centre.wide()).normalized();
+        outward.unwrap_or(Vector3::new(0.0, 0.0, 1.0)).to_normal()
     }
 
     fn area(&self) -> f64 {
