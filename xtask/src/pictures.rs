@@ -14,7 +14,24 @@ struct Picture {
 }
 
 /// The table: a picture that is committed has a row here.
-const TABLE: &[Picture] = &[];
+const TABLE: &[Picture] = &[
+    Picture {
+        file: "docs/pictures/whitted.png",
+        arguments: "render whitted --size 640x360 --spp 16",
+    },
+    Picture {
+        file: "docs/pictures/teapot.png",
+        arguments: "render teapot --size 384x256 --spp 16",
+    },
+    Picture {
+        file: "docs/pictures/teapot-cost.png",
+        arguments: "render teapot --size 384x256 --spp 4 --integrator cost",
+    },
+    Picture {
+        file: "docs/pictures/shapes.png",
+        arguments: "render shapes --size 480x300 --spp 16",
+    },
+];
 
 /// Which pictures.
 #[derive(Debug, Args)]
