@@ -228,7 +228,7 @@ fn write(
         version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
         scene_hash: Some(scene_hash),
         seed: Some(settings.seed),
-        seconds: in_full.then(|| seconds.as_secs_f64()),
+        seconds: in_full.then_some(seconds.as_secs_f64()),
     };
     write_image(&args.output, &image, &metadata)?;
     Ok(())
