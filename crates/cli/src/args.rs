@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
 use ombra::geometry::triangle::TriangleTest;
-use ombra::render::{Crop, IntegratorKind};
+use ombra::render::{Crop, IntegratorKind, MAX_DEPTH, MAX_SIDE, MAX_SPP};
 
 /// A ray tracing engine.
 ///
@@ -31,7 +31,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// A scene file (.toml), a model (.obj, .ply, .ply.gz, .stl) or a built-in scene's name
+    /// A scene file (.toml), a model (.obj, .ply, .stl, each also with .gz) or a built-in scene's name
     pub(crate) scene: String,
 
     /// Where to write the picture; the ending chooses the format: png, exr, pfm, ppm
@@ -39,19 +39,19 @@ pub(crate) struct RenderArgs {
     pub(crate) output: PathBuf,
 
     /// How to turn rays into a picture
-    #[arg(long, default_value_t, value_parser = named(IntegratorKind::ALL, IntegratorKind::name))]
+    #[arg(long, default_value_t, value_parser = named(IntegratorKind::ALL, IntegratorKind::name, IntegratorKind::line))]
     pub(crate) integrator: IntegratorKind,
 
-    /// Width and height in pixels [default: 960x540, or what the scene file says]
+    /// Width and height in pixels [default: what the scene file says, else 960x540]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<Size>,
 
-    /// Samples a pixel; 1 goes through the centre of the pixel [default: 16, or what the scene file says]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    /// Samples a pixel; 1 goes through the centre of the pixel [default: what the scene file says, else 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     pub(crate) spp: Option<u32>,
 
     /// How often light may be reflected or transmitted
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_DEPTH)))]
     pub(crate) max_depth: u32,
 
     /// Another seed gives other random numbers
@@ -63,7 +63,7 @@ pub(crate) struct RenderArgs {
     pub(crate) accel: Accel,
 
     /// How rays are tested against triangles
-    #[arg(long, value_name = "NAME", default_value_t, value_parser = named(&TriangleTest::ALL, TriangleTest::name))]
+    #[arg(long, value_name = "NAME", default_value_t, value_parser = named(&TriangleTest::ALL, TriangleTest::name, TriangleTest::line))]
     pub(crate) triangle_test: TriangleTest,
 
     /// Threads to use; 0 means all
@@ -140,9 +140,13 @@ pub(crate) enum Up {
 fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
+    line: fn(T) -> &'static str,
 ) -> impl clap::builder::TypedValueParser<Value = T> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser};
-    PossibleValuesParser::new(all.iter().map(|&one| name(one))).map(move |typed| {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+    let values = all
+        .iter()
+        .map(|&one| PossibleValue::new(name(one)).help(line(one)));
+    PossibleValuesParser::new(values).map(move |typed| {
         let of_that_name = all.iter().copied().find(|&one| name(one) == typed);
         of_that_name.expect("the parser accepts names of the set only")
     })
@@ -156,13 +160,15 @@ fn accel(text: &str) -> Result<Accel, UnknownStructure> {
 }
 
 fn size(text: &str) -> Result<Size, String> {
-    const WANTED: &str = "two whole numbers above 0 with an x between them, such as 960x540";
+    const WANTED: &str =
+        "two whole numbers from 1 to 65536 with an x between them, such as 960x540";
+    const { assert!(MAX_SIDE == 65536) };
     let (width, height) = text.split_once(['x', 'X']).ok_or(WANTED)?;
     let number = |part: &str| {
         part.trim()
             .parse::<u32>()
             .ok()
-            .filter(|&n| n > 0)
+            .filter(|n| (1..=MAX_SIDE).contains(n))
             .ok_or(WANTED)
     };
     Ok(Size {
@@ -200,7 +206,16 @@ mod tests {
                 height: 540
             })
         );
-        for wrong in ["", "960", "960x", "0x10", "-1x10", "1x2x3", "99999999999x1"] {
+        for wrong in [
+            "",
+            "960",
+            "960x",
+            "0x10",
+            "-1x10",
+            "1x2x3",
+            "99999999999x1",
+            "65537x1",
+        ] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
     }

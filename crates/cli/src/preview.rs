@@ -1,6 +1,7 @@
 //! The picture in the terminal while it grows: two pixels a character cell.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use ombra::render::Film;
 use ombra::scene::Rgb;
@@ -17,11 +18,16 @@ pub(crate) fn half_blocks(film: &Film, columns: usize, rows: usize) -> String {
         .clamp(1, MAX_COLUMNS)
         .min(width)
         .min(fitting);
+    let pixels = film.display();
     let rows = (columns * height).div_ceil(width * 2).max(1);
     let mut text = String::new();
     for row in 0..rows {
         for column in 0..columns {
-            let cell = |half: usize| mean(film, [column, columns], [row * 2 + half, rows * 2]);
+            let cell = |half: usize| {
+                let x = span(column, columns, width);
+                let y = span(row * 2 + half, rows * 2, height);
+                mean(&pixels, width, x, y)
+            };
             let [upper, lower] = [cell(0), cell(1)].map(bytes);
             let _ = write!(
                 text,
@@ -34,24 +40,19 @@ pub(crate) fn half_blocks(film: &Film, columns: usize, rows: usize) -> String {
     text
 }
 
-/// The mean of the pixels in one cell of a raster of `[columns, rows]` cells.
-fn mean(film: &Film, [column, columns]: [usize; 2], [row, rows]: [usize; 2]) -> Rgb {
-    let span = |cell: usize, cells: usize, size: u32| {
-        let from = cell * size as usize / cells;
-        let to = ((cell + 1) * size as usize / cells).max(from + 1);
-        from as u32..(to as u32).min(size)
-    };
-    let mut sum = Rgb::BLACK;
-    let mut count = 0.0;
-    for y in span(row, rows, film.height()) {
-        for x in span(column, columns, film.width()) {
-            if let Some(pixel) = film.average(x, y) {
-                sum += pixel;
-                count += 1.0;
-            }
-        }
-    }
-    if count > 0.0 { sum / count } else { sum }
+/// Which of `size` pixels lie in one of `cells` cells: at least one.
+fn span(cell: usize, cells: usize, size: usize) -> Range<usize> {
+    let from = (cell * size / cells).min(size - 1);
+    let to = ((cell + 1) * size / cells).max(from + 1);
+    from..to.min(size)
+}
+
+/// The mean of the pixels in a rectangle of a picture.
+fn mean(pixels: &[Rgb], width: usize, x: Range<usize>, y: Range<usize>) -> Rgb {
+    let count = (x.len() * y.len()) as f32;
+    let rows = y.map(|y| &pixels[y * width..][x.clone()]);
+    let sum = rows.flatten().fold(Rgb::BLACK, |sum, &pixel| sum + pixel);
+    sum / count
 }
 
 fn bytes(colour: Rgb) -> [u8; 3] {

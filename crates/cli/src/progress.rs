@@ -1,5 +1,6 @@
 //! Progress on a terminal: a bar with rays a second and the time left, and the picture above it.
 
+use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -66,7 +67,8 @@ impl Display {
         let picture = self.bar.prefix();
         self.bar.finish_and_clear();
         if self.preview {
-            eprint!("{picture}");
+            // Nobody is left to tell if this fails.
+            let _ = write!(io::stderr(), "{picture}");
         }
     }
 }

@@ -1,15 +1,16 @@
 //! `ombra render`: from a scene to a picture.
 
+use std::borrow::Cow;
 use std::io::{self, IsTerminal as _, Write as _};
-use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use clap::Parser as _;
 use ombra::accel::Traversable as _;
-use ombra::formats::{ImageBuffer, ImageFormat, Metadata, write_image};
+use ombra::formats::scene::Picture;
+use ombra::formats::{ImageBuffer, ImageFormat, Metadata, OutputFile};
 use ombra::geometry::Vector3;
 use ombra::pipeline::Cpu;
 use ombra::render::{Rendering, Settings, Watch};
@@ -31,7 +32,7 @@ const SPP: u32 = 16;
 #[derive(Serialize)]
 struct Statistics<'a> {
     scene: &'a str,
-    output: &'a Path,
+    output: Cow<'a, str>,
     integrator: &'a str,
     accel: &'a str,
     width: u32,
@@ -66,22 +67,29 @@ pub(crate) fn default_scene() -> anyhow::Result<ExitCode> {
     };
     let code = run(&args)?;
     if code == ExitCode::SUCCESS {
+        // Cargo sets this for what it runs: the binary is not on the path then.
+        let by_cargo = std::env::var_os("CARGO").is_some();
+        let ombra = if by_cargo {
+            "cargo run --release --"
+        } else {
+            "ombra"
+        };
         let mut out = io::stderr().lock();
         writeln!(out, "\nNext, try:")?;
-        writeln!(out, "  ombra render cornell -o cornell.png --spp 64")?;
+        writeln!(out, "  {ombra} render cornell -o cornell.png --spp 64")?;
         writeln!(
             out,
-            "  ombra render model.obj -o model.png         # a model of your own: obj, ply, stl"
+            "  {ombra} render model.obj -o model.png    # a model of yours: obj, ply, stl"
         )?;
         writeln!(
             out,
-            "  ombra render teapot -o cost.png --integrator cost --accel kd-ropes"
+            "  {ombra} render teapot -o cost.png --integrator cost --accel kd-ropes"
         )?;
         writeln!(
             out,
-            "  ombra scenes                                # what else is built in"
+            "  {ombra} scenes                           # what else is built in"
         )?;
-        writeln!(out, "  ombra --help")?;
+        writeln!(out, "  {ombra} --help")?;
     }
     Ok(code)
 }
@@ -90,60 +98,48 @@ pub(crate) fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     if args.device == Device::Gpu {
         bail!("this build of ombra cannot use a GPU; take --device cpu or --device auto");
     }
-    // What would fail in the end fails at once.
-    let format = ImageFormat::of(&args.output)?;
-    let cpu = Cpu::with_threads(args.threads as usize).context("cannot start the threads")?;
-    let stop = interrupt::watch()?;
     let talk = Talk { quiet: args.quiet };
     if let Some(alias) = args.accel.alias {
         talk.say(&alias.to_string());
     }
+    // What would fail in the end fails at once.
+    let output = OutputFile::create(&args.output)?;
+    let cpu = Cpu::with_threads(args.threads as usize).context("cannot start the threads")?;
+    let stop = interrupt::watch(args.quiet)?;
 
     let begun = Instant::now();
-    let options = LoadOptions {
-        up: args.up.map(up),
-        triangle_test: args.triangle_test,
-        ..LoadOptions::default()
-    };
     let Loaded {
         scene,
         picture,
         findings,
         hash,
-    } = cpu.install(|| ombra::load(&args.scene, &options))?;
+    } = cpu.install(|| load(args))?;
     for finding in &findings {
         talk.say(&format!("{}: {finding}", args.scene));
     }
-    let load = begun.elapsed();
+    if args.up.is_some() && scene.camera.is_some() {
+        talk.say("--up has no effect: the scene has a camera of its own");
+    }
+    let load_time = begun.elapsed();
+    let settings = settings(args, picture);
+    settings.validate()?;
+    if stop.load(Ordering::Relaxed) {
+        return Ok(nothing_kept(&talk));
+    }
 
     let begun = Instant::now();
     let world = cpu.install(|| World::build(scene, args.accel.kind))?;
-    let build = begun.elapsed();
+    let build_time = begun.elapsed();
 
-    let size = args
-        .size
-        .or(picture.size.map(|[width, height]| Size { width, height }))
-        .unwrap_or(SIZE);
-    let settings = Settings {
-        width: size.width,
-        height: size.height,
-        spp: args.spp.or(picture.spp).unwrap_or(SPP),
-        max_depth: args.max_depth,
-        seed: args.seed,
-        crop: args.crop,
-        integrator: args.integrator,
-        ..Settings::default()
-    };
     let (rendering, seconds) = render(args, &world, &settings, &cpu, &stop)?;
     if rendering.film.done() == 0.0 {
-        talk.say("interrupted before there was anything to keep; nothing written");
-        return Ok(ExitCode::from(interrupt::EXIT_CODE));
+        return Ok(nothing_kept(&talk));
     }
-    write(args, format, &rendering, &settings, hash, seconds)?;
+    write(output, &rendering, &settings, hash, seconds)?;
 
     let statistics = Statistics {
         scene: &args.scene,
-        output: &args.output,
+        output: args.output.to_string_lossy(),
         integrator: settings.integrator.name(),
         accel: args.accel.kind.name(),
         width: rendering.film.width(),
@@ -154,8 +150,8 @@ pub(crate) fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         seconds: seconds.as_secs_f64(),
         rays: rendering.rays,
         rays_per_second: rendering.rays as f64 / seconds.as_secs_f64().max(1e-9),
-        load_seconds: load.as_secs_f64(),
-        build_seconds: build.as_secs_f64(),
+        load_seconds: load_time.as_secs_f64(),
+        build_seconds: build_time.as_secs_f64(),
         bytes: world.bytes(),
         structure_bytes: world.structure_bytes(),
         primitives: world.primitives(),
@@ -202,14 +198,13 @@ fn render(
 }
 
 fn write(
-    args: &RenderArgs,
-    format: ImageFormat,
+    output: OutputFile,
     rendering: &Rendering,
     settings: &Settings,
     scene_hash: String,
     seconds: Duration,
 ) -> anyhow::Result<()> {
-    let floats = matches!(format, ImageFormat::Exr | ImageFormat::Pfm);
+    let floats = matches!(output.format(), ImageFormat::Exr | ImageFormat::Pfm);
     let pixels = if floats {
         rendering.raw()
     } else {
@@ -218,11 +213,7 @@ fn write(
     let image = ImageBuffer::new(rendering.film.width(), rendering.film.height(), pixels)?;
     // Only EXR tells how it came about in full: the same picture is the same bytes in the others,
     // whatever the number of threads in the command and the seconds that it took.
-    let in_full = format == ImageFormat::Exr;
-    let command = || {
-        let arguments: Vec<_> = std::env::args().skip(1).collect();
-        format!("ombra {}", arguments.join(" "))
-    };
+    let in_full = output.format() == ImageFormat::Exr;
     let metadata = Metadata {
         command: in_full.then(command),
         version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -230,8 +221,55 @@ fn write(
         seed: Some(settings.seed),
         seconds: in_full.then_some(seconds.as_secs_f64()),
     };
-    write_image(&args.output, &image, &metadata)?;
+    output.finish(&image, &metadata)?;
     Ok(())
+}
+
+/// The command as it was typed, with quotes around words that need them.
+fn command() -> String {
+    let quoted = |word: String| {
+        let plain = |c: char| c.is_alphanumeric() || "-_./,=+:".contains(c);
+        if !word.is_empty() && word.chars().all(plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
+    };
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| quoted(word.to_string_lossy().into_owned()));
+    std::iter::once("ombra".to_owned())
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {
+    let options = LoadOptions {
+        up: args.up.map(up),
+        triangle_test: args.triangle_test,
+        ..LoadOptions::default()
+    };
+    Ok(ombra::load(&args.scene, &options)?)
+}
+
+fn settings(args: &RenderArgs, picture: Picture) -> Settings {
+    let of_scene = picture.size.map(|[width, height]| Size { width, height });
+    let Size { width, height } = args.size.or(of_scene).unwrap_or(SIZE);
+    Settings {
+        width,
+        height,
+        spp: args.spp.or(picture.spp).unwrap_or(SPP),
+        max_depth: args.max_depth,
+        seed: args.seed,
+        crop: args.crop,
+        integrator: args.integrator,
+        ..Settings::default()
+    }
+}
+
+fn nothing_kept(talk: &Talk) -> ExitCode {
+    talk.say("interrupted before there was anything to keep; nothing written");
+    ExitCode::from(interrupt::EXIT_CODE)
 }
 
 fn summary(statistics: &Statistics<'_>) -> String {
@@ -251,15 +289,20 @@ fn summary(statistics: &Statistics<'_>) -> String {
         String::new()
     };
     format!(
-        "{kept}{} ({width}x{height}, {spp} spp, {} primitives in \"{}\" built in {:.2} s; {} rays in {:.2} s, {})",
-        output.display(),
-        statistics.primitives,
+        "{kept}{} ({width}x{height}, {spp} spp, {} in \"{}\" built in {:.2} s; {} rays in {:.2} s, {})",
+        output,
+        counted(statistics.primitives, "primitive"),
         statistics.accel,
         statistics.build_seconds,
         statistics.rays,
         statistics.seconds,
         rate(statistics.rays, Duration::from_secs_f64(statistics.seconds)),
     )
+}
+
+fn counted(count: usize, word: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {word}{ending}")
 }
 
 const fn up(axis: Up) -> Vector3 {

@@ -10,6 +10,8 @@ fn wrong_usage_is_exit_code_2() {
         &["render"],
         &["render", "whitted"],
         &["render", "whitted", "-o", "a.png", "--size", "0x10"],
+        &["render", "whitted", "-o", "a.png", "--size", "65537x1"],
+        &["render", "whitted", "-o", "a.png", "--max-depth", "129"],
         &["render", "whitted", "-o", "a.png", "--spp", "0"],
         &["render", "whitted", "-o", "a.png", "--spp", "many"],
         &["render", "whitted", "-o", "a.png", "--integrator", "magic"],
@@ -29,7 +31,8 @@ fn wrong_usage_is_exit_code_2() {
     for arguments in wrong {
         fail(folder.path(), arguments, 2);
     }
-    let talk = fail(folder.path(), wrong[7], 2);
+    let unknown = ["render", "whitted", "-o", "a.png", "--accel", "magic"];
+    let talk = fail(folder.path(), &unknown, 2);
     assert!(talk.contains("kd-ropes"), "the names are listed: {talk}");
     assert_eq!(
         std::fs::read_dir(folder.path()).unwrap().count(),
@@ -93,6 +96,7 @@ fn a_wrong_scene_file_is_told_by_line() {
         ),
         ("\n[[objects]]\nmesh.file = \"../secret.obj\"", "outside"),
         ("\n[[objects]]\nmesh.file = \"missing.obj\"", "missing.obj"),
+        ("[picture]\nsize = [0, 5]", "size"),
         (
             "[camera]\nposition = [0, 0, 0]\nlook_at = [0, 0, 0]",
             "direction",

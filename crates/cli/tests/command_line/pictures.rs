@@ -35,14 +35,58 @@ fn the_ending_chooses_the_format() {
 fn the_same_command_gives_the_same_bytes_at_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     for integrator in ["whitted", "ao", "normals", "depth", "cost"] {
-        let with = |threads| {
-            let more = ["--integrator", integrator, "--threads", threads];
-            picture(folder.path(), "a.ppm", &more)
-        };
-        let one = with("1");
-        assert_eq!(one, with("2"), "{integrator}");
-        assert_eq!(one, with("7"), "{integrator}");
+        for out in ["a.png", "a.pfm"] {
+            let with = |threads| {
+                let more = ["--integrator", integrator, "--threads", threads];
+                picture(folder.path(), out, &more)
+            };
+            let one = with("1");
+            assert!(one == with("2"), "{integrator}, {out}");
+            assert!(one == with("7"), "{integrator}, {out}");
+        }
     }
+}
+
+#[test]
+fn names_in_any_script_are_good_names() {
+    let folder = tempfile::tempdir().unwrap();
+    for out in ["日本.exr", "a b.png"] {
+        assert!(!picture(folder.path(), out, &[]).is_empty());
+    }
+    let info = succeed(folder.path(), &["info", "日本.exr", "--json"]);
+    let info: serde_json::Value = serde_json::from_str(&info).unwrap();
+    for attribute in ["command", "version", "scene-hash", "seed", "seconds"] {
+        let name = format!("ombra.{attribute}");
+        assert!(info["attributes"][&name].is_string(), "{name} in {info}");
+    }
+}
+
+#[test]
+fn quiet_is_silent() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = [&["render", "whitted", "-o", "a.png", "--quiet"], &SMALL[..]].concat();
+    let output = crate::run(folder.path(), &command);
+    assert!(output.status.success());
+    assert!(
+        output.stdout.is_empty() && output.stderr.is_empty(),
+        "{output:?}"
+    );
+}
+
+#[test]
+fn a_legacy_name_is_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = [
+        &["render", "whitted", "-o", "a.png", "--accel", "Lbvh"],
+        &SMALL[..],
+    ]
+    .concat();
+    let output = crate::run(folder.path(), &command);
+    let talk = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success() && talk.contains("bvh-lbvh"),
+        "{talk}"
+    );
 }
 
 #[test]
