@@ -1,8 +1,8 @@
 //! Files in and out: bytes to descriptions, and pictures to bytes. Nothing is traced here.
 //!
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
-//! ([`read_model`]: OBJ with MTL, PLY, STL), and pictures ([`read_texture`], [`read_image`]); out go pictures ([`write_image`]: PNG,
-//! EXR, PFM, PPM). [`inspect`] says what a file holds.
+//! ([`read_model`]: OBJ with MTL, PLY, STL), and pictures ([`read_texture`], [`read_image`]); out go
+//! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
 //!
 //! ```no_run
 //! use ombra_formats::{Limits, read_model};
@@ -36,7 +36,8 @@ mod source;
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
 pub use image::{
-    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, read_image, read_texture, write_image,
+    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image, read_texture,
+    write_image,
 };
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;

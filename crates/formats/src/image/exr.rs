@@ -26,7 +26,7 @@ pub(super) fn write(
     metadata: &Metadata,
 ) -> Result<(), FormatError> {
     let component = |pick: fn(&Rgb) -> f32| image.pixels().iter().map(pick).collect();
-    let channel = |name: &str, values| AnyChannel::new(name, FlatSamples::F32(values));
+    let channel = |name: &str, values| AnyChannel::new(text(name), FlatSamples::F32(values));
     let mut channels: SmallVec<[_; 4]> = SmallVec::new();
     channels.push(channel("R", component(|p| p.r)));
     channels.push(channel("G", component(|p| p.g)));
@@ -47,10 +47,10 @@ pub(super) fn write(
     for (name, value) in metadata.entries() {
         let value = match (name, metadata.seconds) {
             ("seconds", Some(seconds)) => AttributeValue::F64(seconds),
-            _ => AttributeValue::Text(Text::from(value.as_str())),
+            _ => AttributeValue::Text(text(&value)),
         };
         // Names without a prefix are the standard's own.
-        let name = Text::from(format!("ombra.{name}").as_str());
+        let name = text(&format!("ombra.{name}"));
         picture.attributes.other.insert(name, value);
     }
     let mut bytes = Vec::new();
@@ -59,6 +59,20 @@ pub(super) fn write(
         .map_err(|e| image_fault(NAME, &e))?;
     sort_attributes(&mut bytes);
     file.write_all(&bytes).map_err(write_error)
+}
+
+/// The library writes Latin-1 and nothing else: other characters are escaped.
+fn text(text: &str) -> Text {
+    let latin = |c: char| c != '\0' && u32::from(c) <= 0xff;
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        if latin(c) {
+            escaped.push(c);
+        } else {
+            escaped.extend(c.escape_unicode());
+        }
+    }
+    Text::new_or_none(&escaped).unwrap_or_default()
 }
 
 /// Puts the attributes of the header into the order of their names: the library keeps them in a

@@ -1,7 +1,8 @@
 //! Pictures there and back.
 
 use ombra_formats::{
-    FileInfo, ImageBuffer, Limits, Metadata, inspect, read_image, read_texture, write_image,
+    FileInfo, ImageBuffer, ImageFormat, Limits, Metadata, OutputFile, inspect, read_image,
+    read_texture, write_image,
 };
 use ombra_scene::Rgb;
 use proptest::prelude::*;
@@ -207,4 +208,47 @@ proptest! {
         prop_assert_eq!(&there_and_back("a.exr", &image), &image);
         prop_assert_eq!(&there_and_back("a.pfm", &image), &image);
     }
+}
+
+#[test]
+fn what_is_wrong_with_an_output_is_known_before_the_picture_is_made() {
+    let folder = Folder::with(&[]);
+    std::fs::create_dir(folder.path("folder.png")).unwrap();
+    for (name, wrong) in [
+        ("nowhere/a.png", "does not exist; create it first"),
+        ("a.gif", "known endings are png"),
+        ("folder.png", "cannot be written: is a directory"),
+    ] {
+        let error = OutputFile::create(folder.path(name)).unwrap_err();
+        assert!(error.to_string().contains(wrong), "{error}");
+        assert!(error.path().unwrap().ends_with(name));
+    }
+}
+
+#[test]
+fn an_output_that_is_given_up_leaves_everything_as_it_was() {
+    let folder = Folder::with(&[("a.png", b"before")]);
+    let output = OutputFile::create(folder.path("a.png")).unwrap();
+    assert_eq!(output.format(), ImageFormat::Png);
+    drop(output);
+    assert_eq!(std::fs::read(folder.path("a.png")).unwrap(), b"before");
+    assert_eq!(std::fs::read_dir(folder.0.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn exr_files_take_text_in_any_script() {
+    let folder = Folder::with(&[]);
+    let path = folder.path("a.exr");
+    let image = picture().with_channel("深.Z", vec![1.0; 6]).unwrap();
+    let metadata = Metadata {
+        command: Some("ombra render café.toml -o 日本.exr".to_owned()),
+        ..Metadata::default()
+    };
+    write_image(&path, &image, &metadata).unwrap();
+    let FileInfo::Image(info) = inspect(&path).unwrap() else {
+        panic!("an EXR file is a picture");
+    };
+    let command = &info.attributes["ombra.command"];
+    assert_eq!(command, r"ombra render café.toml -o \u{65e5}\u{672c}.exr");
+    assert!(info.channels.contains(&r"\u{6df1}.Z".to_owned()));
 }
