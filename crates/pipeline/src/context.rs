@@ -3,16 +3,21 @@
 use ombra_accel::{Candidate, Statistics, Traversable};
 use ombra_geometry::{EdgeRule, Ray};
 
-use crate::{Exception, Pipeline, RayProgram, RayType};
+use crate::{Control, Exception, Pipeline, RayProgram, RayType};
 
 /// How much of a thread's stack nested traces may take, in bytes: half of what a thread of Rust has
 /// unless it is told otherwise, so that whatever one trace needs still fits beyond.
 const STACK_LIMIT: usize = 1 << 20;
 
+/// After how many rays of one launch index the stop from outside is asked for again: rarely enough
+/// to cost nothing, and still within a few milliseconds.
+const RAYS_BETWEEN_STOPS: u64 = 1024;
+
 /// The launch as one launch index sees it: its place in it, and the way to trace rays.
 #[derive(Debug)]
 pub struct Context<'a, P: Pipeline> {
     pipeline: &'a P,
+    control: &'a Control<'a>,
     index: [u32; 3],
     size: [u32; 3],
     depth: u32,
@@ -20,9 +25,15 @@ pub struct Context<'a, P: Pipeline> {
 }
 
 impl<'a, P: Pipeline> Context<'a, P> {
-    pub(crate) fn new(pipeline: &'a P, index: [u32; 3], size: [u32; 3]) -> Self {
+    pub(crate) const fn new(
+        pipeline: &'a P,
+        control: &'a Control<'a>,
+        index: [u32; 3],
+        size: [u32; 3],
+    ) -> Self {
         Self {
             pipeline,
+            control,
             index,
             size,
             depth: 0,
@@ -63,7 +74,7 @@ impl<'a, P: Pipeline> Context<'a, P> {
     ///
     /// # Errors
     /// When the ray is not valid, when traces are nested too deep for the pipeline or for the stack,
-    /// and what the programs raise.
+    /// when the launch is stopped from outside, and what the programs raise.
     #[inline]
     pub fn trace<R: RayType>(
         &mut self,
@@ -97,6 +108,10 @@ impl<'a, P: Pipeline> Context<'a, P> {
         }
         if self.stack_used() > STACK_LIMIT {
             return Err(stack_overflow(self.depth));
+        }
+        // Refused traces are not counted, so once this is so it stays so until the program gives in.
+        if self.rays % RAYS_BETWEEN_STOPS == RAYS_BETWEEN_STOPS - 1 && self.control.is_stopped() {
+            return Err(Exception::Stopped);
         }
         self.rays += 1;
         let mut any_hit = |candidate: &Candidate| pipeline.any_hit(ray, &candidate.hit(), payload);

@@ -15,8 +15,11 @@ pub struct Done {
 /// How a launch is watched and stopped. The default does neither.
 #[derive(Clone, Copy, Default)]
 pub struct Control<'a> {
-    /// When this becomes true the launch stops soon: launch indices that were begun are finished,
-    /// the elements of the others are left as they were.
+    /// When this becomes true, and stays so, the launch stops soon: a launch index that was begun is
+    /// finished or, if that takes it many rays, given up by [`Exception::Stopped`]; the elements of
+    /// the others are left as they were.
+    ///
+    /// [`Exception::Stopped`]: crate::Exception::Stopped
     pub stop: Option<&'a AtomicBool>,
     /// Called whenever a part is done, from the thread that did it, so perhaps from several at a
     /// time. The parts add up to what the launch did.

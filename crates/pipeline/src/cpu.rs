@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::{Context, Control, Done, LaunchError, LaunchException, RayGeneration};
+use crate::{Context, Control, Done, Exception, LaunchError, LaunchException, RayGeneration};
 
 /// How many launch indices one thread takes at a time, at most: enough to hide the cost of taking.
 const LARGEST_CHUNK: usize = 256;
@@ -23,7 +23,7 @@ pub struct Cpu {
 /// What a launch did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaunchReport {
-    /// How many rays were traced.
+    /// How many rays were traced, also by launch indices that were given up.
     pub rays: u64,
     /// How many launch indices were run: all of them, unless the launch was stopped.
     pub indices: u64,
@@ -148,17 +148,26 @@ fn run<Entry, P: RayGeneration<Entry>>(
             part.report.stopped = true;
             break;
         }
-        let mut cx = Context::new(program, index, size);
-        if let Err(exception) = program.generate(&mut cx, element) {
-            let raised = program.exception(LaunchException { index, exception }, element);
-            part.exception = part.exception.or(raised.err());
-        }
+        let mut cx = Context::new(program, control, index, size);
+        let result = program.generate(&mut cx, element);
         part.report.rays += cx.rays();
+        match result {
+            Ok(()) => {}
+            // A program that makes this up has raised an exception like any other.
+            Err(Exception::Stopped) if control.is_stopped() => {
+                part.report.stopped = true;
+                break;
+            }
+            Err(exception) => {
+                let raised = program.exception(LaunchException { index, exception }, element);
+                part.exception = part.exception.or(raised.err());
+            }
+        }
         part.report.indices += 1;
         advance(&mut index, size);
     }
     if let Some(progress) = control.progress
-        && part.report.indices > 0
+        && part.report.rays + part.report.indices > 0
     {
         progress(Done {
             indices: part.report.indices,

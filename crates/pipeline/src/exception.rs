@@ -38,6 +38,12 @@ pub enum Exception {
         /// How many elements there are.
         length: usize,
     },
+    /// The launch was stopped from outside while this launch index traced its rays. From then on it
+    /// is refused every trace, so programs must pass this on and settle other exceptions only; the
+    /// exception program is not asked. The launch takes the index as one that was not run: a
+    /// program whose output shall be whole writes its element when it has traced its last ray.
+    #[error("stopped from outside")]
+    Stopped,
     /// The program's own.
     #[error("exception {code}: {message}")]
     User {

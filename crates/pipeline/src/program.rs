@@ -97,8 +97,13 @@ pub trait RayGeneration<Entry = ()>: Pipeline {
     /// Works on the one element of the output buffer that belongs to this launch index. What it
     /// held before is kept, so that a program can add to it.
     ///
+    /// A launch that is stopped from outside leaves the element of an index that it gives up as the
+    /// program left it. A program that writes only once it has traced all its rays leaves it as it
+    /// was before.
+    ///
     /// # Errors
-    /// Whatever the program finds exceptional; see [`exception`](Self::exception).
+    /// Whatever the program finds exceptional; see [`exception`](Self::exception), which is asked
+    /// about all but [`Exception::Stopped`].
     fn generate(
         &self,
         cx: &mut Context<'_, Self>,

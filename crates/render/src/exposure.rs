@@ -42,7 +42,8 @@ impl<'a> Exposure<'a> {
         }
     }
 
-    /// Adds to a pixel what `measure` says of each camera ray.
+    /// Adds to a pixel what `measure` says of each camera ray, or nothing if there is an exception:
+    /// a pixel that is given up half way does not hold a part of a pass.
     #[inline]
     pub(crate) fn expose(
         &self,
@@ -53,11 +54,13 @@ impl<'a> Exposure<'a> {
         let [x, y, _] = launch_index;
         let place = [self.crop.x0 + x, self.crop.y0 + y];
         let numbers = Numbers::new(self.sampler, self.seed, place);
+        let mut exposed = *pixel;
         for index in self.samples.clone() {
             let sample = numbers.sample(index);
             let measured = measure(&self.ray(place, &sample), &sample)?;
-            pixel.add(measured);
+            exposed.add(measured);
         }
+        *pixel = exposed;
         Ok(())
     }
 
