@@ -22,11 +22,15 @@ pub struct Accel<P> {
 
 impl<P: Primitives> Accel<P> {
     /// Builds the named structure. Primitives with an empty or NaN box are left out.
+    ///
+    /// # Panics
+    /// When there are 2³² primitives or more: an id has 32 bits. A mesh cannot have so many.
     #[must_use]
     pub fn build(primitives: P, kind: StructureKind) -> Self {
+        let count = u32::try_from(primitives.len()).expect("ids of primitives have 32 bits");
         let mut unbounded = Vec::new();
         let mut bounds = Aabb::EMPTY;
-        let mut bounded: Vec<_> = (0..primitives.len() as u32)
+        let mut bounded: Vec<_> = (0..count)
             .into_par_iter()
             .map(|primitive| Bounded {
                 bounds: primitives.bounds(primitive),
@@ -65,7 +69,8 @@ impl<P: Primitives> Accel<P> {
         &self.primitives
     }
 
-    /// The box that holds every hit that counts: the bounds, padded by what rounding can do.
+    /// The box that holds every hit that counts: the bounds, padded by what rounding can do to a ray
+    /// from anywhere within 10¹⁰ extents.
     pub(crate) fn hit_bounds(&self) -> Aabb {
         if self.bounds.is_finite() && !self.bounds.is_empty() {
             Aabb::enclosing(self.bounds.wide().padded(self.reach.hit_pad_limit()))

@@ -78,16 +78,17 @@ impl Structure for Bih {
         }
     }
 
-    /// In double precision, whose rounding is far below what `box_pad` has more than `hit_pad`.
+    /// In double precision, all t counted from `box_start`.
     fn traverse<V: Visitor>(&self, ray: &TraversalRay, visitor: &mut V) -> ControlFlow<()> {
         if self.nodes.is_empty() {
             return ControlFlow::Continue(());
         }
         let mut waiting = ArrayVec::<(u32, Interval), MAX_DEPTH>::new();
-        let mut next = clipped_to(&self.bounds, ray).map(|interval| (0, interval));
+        let all = ray.clip(&self.bounds.wide(), visitor.t_max());
+        let mut next = all.map(|[from, to]| (0, Interval { from, to }));
         visitor.node();
         while let Some((index, interval)) = next.take().or_else(|| waiting.pop()) {
-            if interval.from > visitor.t_max() {
+            if interval.from > visitor.t_max() - ray.box_start {
                 continue;
             }
             match self.nodes[index as usize] {
@@ -129,7 +130,7 @@ impl Structure for Bih {
     }
 }
 
-/// The part of the ray within a node: t in `[from, to]`.
+/// The part of the ray within a node: t in `[from, to]`, counted from the walk's start.
 #[derive(Clone, Copy)]
 struct Interval {
     from: f64,
@@ -145,7 +146,7 @@ impl Interval {
     /// What lies before the end of the left part and behind the beginning of the right one.
     #[inline]
     fn cut(self, axis: Axis, clip: [f32; 2], ray: &TraversalRay) -> [Option<Self>; 2] {
-        let origin = ray.ray.origin[axis];
+        let origin = ray.box_origin[axis];
         let to_left = f64::from(clip[0]) + ray.box_pad - origin;
         let to_right = f64::from(clip[1]) - ray.box_pad - origin;
         let inverse = ray.inverse_direction[axis];
@@ -178,14 +179,6 @@ impl Interval {
         let [_, behind] = before?.cut(axis, [upper, lower], ray);
         behind
     }
-}
-
-/// The part of the ray within a padded box.
-fn clipped_to(bounds: &Aabb, ray: &TraversalRay) -> Option<Interval> {
-    let all = Interval::new(ray.ray.t_min, ray.ray.t_max);
-    Axis::ALL.into_iter().fold(all, |interval, axis| {
-        interval?.within(axis, [bounds.min[axis], bounds.max[axis]], ray)
-    })
 }
 
 /// What is known of a place in the tree before it is filled.

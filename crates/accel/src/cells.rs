@@ -8,9 +8,11 @@
 //! to a plane is listed on both sides of it.
 //!
 //! The last half sentence fails for a ray whose origin is so far away that neighbouring planes are
-//! met at the same t. Nothing can be cut then, and every primitive is tested.
+//! met at the same t. Nothing can be cut then, and every primitive is tested if the ray meets the box
+//! around all of them.
 
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 
 use ombra_geometry::{Aabb, Axis};
 
@@ -18,6 +20,7 @@ use crate::{Bounded, Reach, Span, TraversalRay, Visitor};
 
 /// Beyond this many extents planes are no longer told apart. Planes and points are off by less than
 /// 8 units in the last place of the largest coordinate, 2³² · 2⁻⁵⁰ extents; the padding leaves 2⁻¹⁵.
+/// (What counts as a hit may be off by more than that only from beyond 2³⁴ extents.)
 const TOLD_APART: f64 = 4_294_967_296.0;
 
 /// Directions for which no product of this module over- or underflows.
@@ -34,8 +37,12 @@ pub(crate) fn padded(primitives: &[Bounded], reach: &Reach) -> Vec<Aabb<f64>> {
 #[derive(Clone, Debug)]
 pub(crate) struct Root {
     bounds: Aabb<f64>,
+    /// Around the primitives as they are.
+    unpadded: Aabb<f64>,
     /// Origins with larger coordinates are too far away; 0 if all are.
     farthest: f64,
+    /// Every primitive once, for rays that planes cannot cut. Few scenes ever meet one.
+    everything: OnceLock<Vec<u32>>,
 }
 
 impl Root {
@@ -45,8 +52,16 @@ impl Root {
         let farthest = TOLD_APART * reach.bounds().extent().max_norm();
         Self {
             bounds,
+            unpadded: *reach.bounds(),
             farthest: if largest < farthest { farthest } else { 0.0 },
+            everything: OnceLock::new(),
         }
+    }
+
+    /// Bytes held on the heap.
+    pub(crate) fn bytes(&self) -> usize {
+        let everything = self.everything.get();
+        everything.map_or(0, |list| size_of_val(list.as_slice()))
     }
 
     /// The padded box around everything.
@@ -75,23 +90,31 @@ impl Root {
         let d = ray.ray.direction;
         let sane = |x: f64| x == 0.0 || SANE_DIRECTION.contains(&x.abs());
         let near = ray.ray.origin.to_vector().max_norm() < self.farthest;
-        if !(near && sane(d.x) && sane(d.y) && sane(d.z)) {
-            return show_everything(references, visitor);
+        let sane = sane(d.x) && sane(d.y) && sane(d.z);
+        if !(near && sane) {
+            // Whether it passes by is only known where nothing overflows.
+            if sane && ray.clip(&self.unpadded, visitor.t_max()).is_none() {
+                return ControlFlow::Continue(());
+            }
+            return visitor.leaf(self.everything(references), Span::ALL);
         }
         match CellRay::new(ray, &self.bounds) {
             Some(ray) if ray.enter <= visitor.t_max() => walk(&ray, visitor),
             _ => ControlFlow::Continue(()),
         }
     }
-}
 
-/// Shows every primitive once, out of lists that may name it several times.
-#[cold]
-fn show_everything<V: Visitor>(references: &[u32], visitor: &mut V) -> ControlFlow<()> {
-    let mut primitives = references.to_vec();
-    primitives.sort_unstable();
-    primitives.dedup();
-    visitor.leaf(&primitives, Span::ALL)
+    /// Every primitive once, out of lists that may name it several times.
+    #[cold]
+    fn everything(&self, references: &[u32]) -> &[u32] {
+        self.everything.get_or_init(|| {
+            let mut primitives = references.to_vec();
+            primitives.sort_unstable();
+            primitives.dedup();
+            primitives.shrink_to_fit();
+            primitives
+        })
+    }
 }
 
 /// A ray that meets the root box, ready to be cut by planes.

@@ -74,6 +74,8 @@ impl Structure for Grid {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.lists.offsets.as_slice()) + size_of_val(self.lists.references.as_slice())
+        self.root.bytes()
+            + size_of_val(self.lists.offsets.as_slice())
+            + size_of_val(self.lists.references.as_slice())
     }
 }

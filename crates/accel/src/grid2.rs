@@ -139,7 +139,8 @@ impl Structure for Grid2 {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.cells.as_slice())
+        self.root.bytes()
+            + size_of_val(self.cells.as_slice())
             + size_of_val(self.grids.as_slice())
             + size_of_val(self.offsets.as_slice())
             + size_of_val(self.references.as_slice())

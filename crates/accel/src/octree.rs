@@ -140,7 +140,9 @@ impl Structure for Octree {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice())
+        self.root.bytes()
+            + size_of_val(self.nodes.as_slice())
+            + size_of_val(self.references.as_slice())
     }
 }
 

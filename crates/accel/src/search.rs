@@ -77,8 +77,10 @@ where
                 if !nearest || !in_range || !span.contains(candidate.t) {
                     return AnyHit::Ignore;
                 }
-                let bounds = list.bounds(primitive).wide().padded(ray.hit_pad);
-                if !bounds.contains(ray.ray.at(candidate.t)) {
+                // What has no end on some side is in no structure that could miss it.
+                let bounds = list.bounds(primitive);
+                let at = ray.ray.at(candidate.t);
+                if bounds.is_finite() && !bounds.wide().padded(ray.hit_pad).contains(at) {
                     return AnyHit::Ignore;
                 }
                 let answer = any_hit(candidate);

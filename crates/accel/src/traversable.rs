@@ -31,13 +31,17 @@ pub trait Traversable: Send + Sync {
     /// The closest hit.
     #[inline]
     fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.trace(ray, &mut |_| AnyHit::Accept)
+        let mut accept = |_: &Candidate| AnyHit::Accept;
+        self.search(&(*ray).into(), EdgeRule::Closed, None, &mut accept)
+            .map(|candidate| candidate.hit())
     }
 
     /// Whether there is any hit.
     #[inline]
     fn occluded(&self, ray: &Ray) -> bool {
-        self.trace(ray, &mut |_| AnyHit::Terminate).is_some()
+        let mut terminate = |_: &Candidate| AnyHit::Terminate;
+        self.search(&(*ray).into(), EdgeRule::Closed, None, &mut terminate)
+            .is_some()
     }
 
     /// The closest of those hits that `any_hit` accepts.
@@ -61,11 +65,7 @@ pub trait Traversable: Send + Sync {
             AnyHit::Ignore
         };
         self.search(&(*ray).into(), EdgeRule::HalfOpen, None, &mut collect);
-        found.sort_unstable_by(|a, b| match (a.precedes(b), b.precedes(a)) {
-            (true, _) => std::cmp::Ordering::Less,
-            (_, true) => std::cmp::Ordering::Greater,
-            _ => std::cmp::Ordering::Equal,
-        });
+        found.sort_unstable_by(Candidate::order);
         hits.clear();
         hits.extend(found.iter().map(Candidate::hit));
     }

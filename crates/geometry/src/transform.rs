@@ -21,6 +21,12 @@ pub enum Camera {}
 ///
 /// Numbers are double precision inside, so that an object placed at map coordinates keeps the
 /// precision of its own.
+///
+/// [`translation`](Self::translation), [`scale`](Self::scale), [`rotation`](Self::rotation) and
+/// [`then`](Self::then) take numbers as they come. From NaN, from infinite numbers, or from numbers
+/// so large or small that they or their inverses overflow, they make a transform that is not finite;
+/// an instance that is placed by one is never hit. Who takes numbers from outside passes the
+/// [`rows`](Self::rows) of the result through [`from_rows`](Self::from_rows), which refuses them.
 #[derive(Clone, Copy, Debug)]
 pub struct Transform<From, To> {
     /// Rows of the 3 × 4 matrix: linear part, then translation.
@@ -72,7 +78,7 @@ impl<F, T> Transform<F, T> {
     /// From the rows of a 3 × 4 matrix: linear part, then translation.
     ///
     /// # Errors
-    /// When an element is not finite or the matrix has no inverse.
+    /// When an element is not finite, or the matrix has no inverse whose elements are.
     pub fn from_rows(rows: [[f64; 4]; 3]) -> Result<Self, TransformError> {
         if !rows.iter().flatten().all(|x| x.is_finite()) {
             return Err(TransformError::NotFinite);
@@ -94,10 +100,10 @@ impl<F, T> Transform<F, T> {
         Self::of(by(offset), by(-offset))
     }
 
-    /// Stretches each axis by a factor, which must be finite and not zero.
+    /// Stretches each axis by a factor. A factor of 0 has no inverse, and makes a transform that is
+    /// not finite (see the type).
     #[must_use]
     pub fn scale(factors: Vector3<f64>) -> Self {
-        debug_assert!(factors.is_finite() && factors.x * factors.y * factors.z != 0.0);
         let by = |x, y, z| [[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0]];
         Self::of(
             by(factors.x, factors.y, factors.z),
@@ -248,13 +254,20 @@ fn product(a: &[[f64; 4]; 3], b: &[[f64; 4]; 3]) -> [[f64; 4]; 3] {
 
 /// The inverse by cofactors; `None` where there is none that is finite.
 fn inverse(m: &[[f64; 4]; 3]) -> Option<[[f64; 4]; 3]> {
+    // In units of a power of two near to the largest element, so that nothing rounds differently
+    // and a determinant, the product of three elements, neither over- nor underflows.
     let row = |i: usize| Vector3::new(m[i][0], m[i][1], m[i][2]);
-    let (r0, r1, r2) = (row(0), row(1), row(2));
+    let largest = [row(0), row(1), row(2)]
+        .map(Vector3::max_norm)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let unit = power_of_two_below(largest)?;
+    let (r0, r1, r2) = (row(0) / unit, row(1) / unit, row(2) / unit);
     let columns = [r1.cross(r2), r2.cross(r0), r0.cross(r1)];
     let det = r0.dot(columns[0]);
     let offset = Vector3::new(m[0][3], m[1][3], m[2][3]);
     let back: [[f64; 4]; 3] = std::array::from_fn(|i| {
-        let component = |v: Vector3<f64>| v.to_array()[i] / det;
+        let component = |v: Vector3<f64>| v.to_array()[i] / det / unit;
         let linear = Vector3::new(
             component(columns[0]),
             component(columns[1]),
@@ -263,6 +276,14 @@ fn inverse(m: &[[f64; 4]; 3]) -> Option<[[f64; 4]; 3]> {
         [linear.x, linear.y, linear.z, -linear.dot(offset)]
     });
     back.iter().flatten().all(|x| x.is_finite()).then_some(back)
+}
+
+/// The largest power of two that is not above a positive number; `None` for 0 and for numbers below
+/// the normal ones, which have no finite inverse.
+fn power_of_two_below(x: f64) -> Option<f64> {
+    const EXPONENT: u64 = 0x7ff << 52;
+    let power = f64::from_bits(x.to_bits() & EXPONENT);
+    (power > 0.0).then_some(power)
 }
 
 #[cfg(test)]
@@ -316,13 +337,33 @@ mod tests {
     }
 
     #[test]
-    fn a_small_scale_is_no_flattening() {
-        let rows = [
-            [1e-30, 0.0, 0.0, 0.0],
-            [0.0, 1e-30, 0.0, 0.0],
-            [0.0, 0.0, 1e-30, 0.0],
-        ];
-        assert!(Transform::<Object, World>::from_rows(rows).is_ok());
+    fn a_scale_of_any_size_is_no_flattening() {
+        for size in [1e-300, 1e-120, 1e-30, 1.0, 1e120, 1e300] {
+            let scale = Transform::<Object, World>::scale(Vector3::new(size, -size, size));
+            let again = Transform::from_rows(*scale.rows()).unwrap();
+            let p = Point3::new(1.0_f64, 2.0, 3.0);
+            for transform in [scale, again] {
+                let back = transform.inverse().point(transform.point(p));
+                assert!((back - p).max_norm() < 1e-14, "{size}: {back:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_overflowed_on_the_way_is_refused_by_its_rows() {
+        let scale = |by| Transform::<Object, Object>::scale(Vector3::new(by, by, by));
+        let far = Transform::<Object, Object>::translation(Vector3::new(1e300, 0.0, 0.0));
+        for broken in [
+            scale(0.0),
+            scale(f64::NAN),
+            scale(1e-200).then(&scale(1e-200)),
+            scale(1e200).then(&scale(1e200)),
+            far.then(&scale(1e200)),
+            Transform::rotation(Vector3::X, f64::INFINITY),
+        ] {
+            let refused = Transform::<Object, Object>::from_rows(*broken.rows());
+            assert!(refused.is_err(), "{broken:?}");
+        }
     }
 
     #[test]

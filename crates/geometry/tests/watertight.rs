@@ -121,11 +121,16 @@ fn aimed(from: Point3<f64>, to: Point3<f64>, random: &mut Random) -> Ray<f64> {
     Ray::new(origin, direction).into()
 }
 
+/// What `OMBRA_WATERTIGHT_RAYS` says. A word that is no number must not pass for a full check.
 fn rays_asked_for() -> u64 {
-    std::env::var("OMBRA_WATERTIGHT_RAYS")
-        .ok()
-        .and_then(|rays| rays.parse().ok())
-        .unwrap_or(1_000_000)
+    let Some(asked) = std::env::var_os("OMBRA_WATERTIGHT_RAYS") else {
+        return 1_000_000;
+    };
+    let rays = asked.to_str().and_then(|rays| rays.parse().ok());
+    match rays {
+        Some(rays) if rays > 0 => rays,
+        _ => panic!("OMBRA_WATERTIGHT_RAYS is {asked:?}; it must be a whole number from 1"),
+    }
 }
 
 /// Runs `check` over seeds on all cores; each gets its own generator.
@@ -162,7 +167,7 @@ fn no_ray_escapes_through_an_edge_or_a_vertex() {
 
 #[test]
 fn counting_crossings_tells_inside_from_outside() {
-    let rays = rays_asked_for() / 4;
+    let rays = rays_asked_for().div_ceil(4);
     on_all_cores(rays.div_ceil(RAYS_A_MESH), |random| {
         let Closed { mesh, inside, size } = closed(random);
         for _ in 0..RAYS_A_MESH.min(rays) {

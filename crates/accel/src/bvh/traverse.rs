@@ -83,15 +83,16 @@ fn pop(waiting: &mut ArrayVec<Waiting, MAX_DEPTH>, t_max: f32) -> Option<(u32, u
 /// The test of a box in single precision, such that no box is missed which the law wants shown.
 ///
 /// # Why it is conservative
-/// 1. Padding a box by p is the same as moving the origin towards each plane by p: the origin is
-///    moved up by `box_pad` for the lower planes and down for the upper ones, and then rounded to
-///    single precision outward.
-/// 2. Everything is in units of the direction's largest component m: t' = t · m. So the reciprocals
-///    of the direction are at least 1, and |t'| is at most about the distance to the far side of the
-///    structure, R. One rounding of a difference, one of a reciprocal and one of their product move
-///    a plane by less than 2 ε R, where ε is that of single precision. `box_pad` is 24 ε R, which
-///    is 12 ε R more than `hit_pad`, so a box's interval holds the t' of each hit that counts with
-///    more than 10 ε R to spare on both sides, and rounding `t_min` and `t_max` does no harm.
+/// 1. Padding a box by p is the same as moving the origin towards each plane by p: the walk's origin
+///    (see `traversal_ray.rs`) is moved up by `single_box_pad` for the lower planes and down for the
+///    upper ones, and then rounded to single precision outward.
+/// 2. Everything is in units of the direction's largest component m: τ' = (t − `box_start`) · m. So
+///    the reciprocals of the direction are at least 1, and for a hit that counts |τ'| is at most R,
+///    the distance from the walk's origin to the far side of the structure, padded. One rounding of
+///    a difference, one of a reciprocal and one of their product move a plane by less than 2 ε R,
+///    where ε is that of single precision. `single_box_pad` is 12 ε R more than what double
+///    precision needs, so a box's interval holds the τ' of each hit that counts with more than
+///    10 ε R to spare on both sides, and rounding `t_min` and `t_max` does no harm.
 /// 3. Where the direction's component is 0 its reciprocal is set to a large number L instead of ∞,
 ///    so that 0 · ∞ does not occur. A hit that counts has the origin at least 12 ε R within the
 ///    slab, so its interval is at least ± 12 ε R L, far beyond R.
@@ -105,7 +106,9 @@ struct Slabs {
     inverse: [f32; 3],
     /// m.
     unit: f64,
-    /// In units of t'.
+    /// The t of the walk's origin.
+    start: f64,
+    /// In units of τ'.
     t_min: f32,
 }
 
@@ -117,8 +120,8 @@ const LEAST_PAD: f64 = 8.0e-45;
 
 impl Slabs {
     fn new(ray: &TraversalRay) -> Self {
-        let pad = ray.box_pad.max(LEAST_PAD);
-        let origin = ray.ray.origin.to_array();
+        let pad = ray.single_box_pad.max(LEAST_PAD);
+        let origin = ray.box_origin.to_array();
         let unit = ray.ray.direction.max_norm();
         let inverse = ray.inverse_direction.to_array();
         Self {
@@ -126,17 +129,18 @@ impl Slabs {
             below: origin.map(|o| -rounded_up(-(o - pad))),
             inverse: inverse.map(|i| (unit * i).clamp(-LARGE, LARGE) as f32),
             unit,
-            t_min: -rounded_up(-ray.ray.t_min * unit),
+            start: ray.box_start,
+            t_min: -rounded_up((ray.box_start - ray.ray.t_min) * unit),
         }
     }
 
-    /// A `t_max` in units of t'.
+    /// A `t_max` in units of τ'.
     #[inline]
     fn limit(&self, t_max: f64) -> f32 {
-        rounded_up(t_max * self.unit)
+        rounded_up((t_max - self.start) * self.unit)
     }
 
-    /// Where the ray enters a box, in units of t'; `None` if it does not, or beyond `t_max`.
+    /// Where the ray enters a box, in units of τ'; `None` if it does not, or beyond `t_max`.
     #[inline]
     fn entry(&self, node: &Node, t_max: f32) -> Option<f32> {
         let (mut near, mut far) = (self.t_min, t_max);

@@ -109,7 +109,9 @@ impl KdTree {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice())
+        self.root.bytes()
+            + size_of_val(self.nodes.as_slice())
+            + size_of_val(self.references.as_slice())
     }
 
     /// The primitives of a leaf.

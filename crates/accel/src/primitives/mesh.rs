@@ -48,12 +48,7 @@ impl Primitives for Mesh {
 
     #[inline]
     fn bounds(&self, primitive: u32) -> Aabb {
-        let corners = self.mesh.corners(primitive as usize);
-        if corners.iter().all(|corner| corner.is_finite()) {
-            Aabb::around(corners)
-        } else {
-            Aabb::EMPTY
-        }
+        self.mesh.triangle_bounds(primitive as usize)
     }
 
     #[inline]

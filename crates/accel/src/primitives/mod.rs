@@ -4,6 +4,7 @@ mod geometry;
 mod mesh;
 mod shapes;
 
+use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 use ombra_geometry::{Aabb, Crossing, EdgeRule, GeometryId, Hit, InstanceId, PrimitiveId};
@@ -109,12 +110,21 @@ impl Candidate {
         }
     }
 
-    /// Whether this comes before another one: nearer or, by the rule for ties (see [`Hit`]), equally
-    /// near with smaller ids.
+    /// The order of hits: the nearer first, of equally near ones that with the smaller ids (see
+    /// [`Hit`]).
+    #[must_use]
+    #[inline]
+    pub fn order(&self, other: &Self) -> Ordering {
+        let ids = |c: &Self| (c.instance, c.geometry, c.primitive);
+        // Not `total_cmp`: 0 and −0 are equally near. A crossing's t is not NaN.
+        let nearer = self.t.partial_cmp(&other.t).unwrap_or(Ordering::Equal);
+        nearer.then_with(|| ids(self).cmp(&ids(other)))
+    }
+
+    /// Whether this comes before another one in that [order](Self::order).
     #[must_use]
     #[inline]
     pub fn precedes(&self, other: &Self) -> bool {
-        let ids = |c: &Self| (c.instance, c.geometry, c.primitive);
-        self.t < other.t || (self.t == other.t && ids(self) < ids(other))
+        self.order(other).is_lt()
     }
 }

@@ -114,6 +114,66 @@ fn every_structure_over_every_structure_agrees_with_brute_force() {
     }
 }
 
+#[test]
+fn every_structure_agrees_with_brute_force_under_extreme_placements() {
+    let sheared = [
+        [1.0, 30.0, 0.0, -2.0],
+        [0.0, 1.0, -20.0, 0.0],
+        [0.5, 0.0, 1.0, 2.0],
+    ];
+    let ways: [(&str, f32, Placement); 6] = [
+        (
+            "large",
+            1.0,
+            scaled(1e15, 1e15, 1e15).then(&at(3e14, 0.0, 0.0)),
+        ),
+        (
+            "small",
+            1.0,
+            scaled(1e-15, 1e-15, 1e-15).then(&at(0.0, 1e-15, 0.0)),
+        ),
+        (
+            "thin",
+            1.0,
+            scaled(1.0, 1e-15, 1.0)
+                .then(&turned(0.3))
+                .then(&at(0.0, 0.0, 1.0)),
+        ),
+        ("long", 1.0, scaled(1.0, 1e15, 1.0).then(&at(0.0, 0.0, 1.0))),
+        ("sheared", 1.0, Transform::from_rows(sheared).unwrap()),
+        // Rays from outside begin where no single is.
+        (
+            "huge in its own space",
+            1e38,
+            scaled(1e-38, 1e-38, 1e-38).then(&at(1.0, 0.0, 0.0)),
+        ),
+    ];
+    for (name, size, world_from_object) in ways {
+        let mesh = meshes::moved(&meshes::icosphere(2), size, 0.0);
+        let placed = |kind| {
+            let geometry = Accel::build(meshes::geometry(mesh.clone()), kind);
+            let instance = Instance {
+                geometry: GeometryId(0),
+                world_from_object,
+            };
+            let placed = Instances::new(vec![Arc::new(geometry)], vec![instance]);
+            Accel::build(placed, kind)
+        };
+        let mut rays = rays::around(&corners(&placed(StructureKind::BruteForce)), 0.15);
+        let own = rays::of_mesh(&meshes::icosphere(2), 0.1);
+        rays.extend(own.into_iter().map(|ray| {
+            let scaled = Ray {
+                origin: Point3::ORIGIN + ray.origin.to_vector() * size,
+                direction: ray.direction * size,
+                ..ray
+            };
+            world_from_object.ray(&scaled)
+        }));
+        let hits = assert_same(name, &placed, &rays);
+        assert!(hits > 100, "{name}: {hits} hits");
+    }
+}
+
 fn moved_rays(rays: &[Ray], x: f32) -> Vec<Ray> {
     let by = Vector3::new(x, 0.0, 0.0);
     rays.iter()

@@ -4,6 +4,7 @@
 //! later is covered without a line.
 
 mod answers;
+mod custom;
 mod instances;
 mod meshes;
 mod numbers;

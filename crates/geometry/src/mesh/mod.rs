@@ -158,11 +158,27 @@ impl TriangleMesh {
         self.triangles[triangle].map(|i| self.positions[i as usize])
     }
 
-    /// The box around all triangles (vertices that no triangle uses do not count).
+    /// The box around one triangle; empty if a corner is NaN or infinite, since such a triangle is
+    /// never hit.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[must_use]
+    #[inline]
+    pub fn triangle_bounds(&self, triangle: usize) -> Aabb {
+        let corners = self.corners(triangle);
+        if corners.iter().all(|corner| corner.is_finite()) {
+            Aabb::around(corners)
+        } else {
+            Aabb::EMPTY
+        }
+    }
+
+    /// The box around all triangles that can be hit. Vertices that no triangle uses do not count.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         (0..self.triangles.len()).fold(Aabb::EMPTY, |bounds, i| {
-            bounds.union(Aabb::around(self.corners(i)))
+            bounds.union(self.triangle_bounds(i))
         })
     }
 
@@ -196,6 +212,18 @@ mod tests {
     #[test]
     fn nothing_is_a_mesh_with_empty_bounds() {
         assert!(TriangleMesh::default().bounds().is_empty());
+    }
+
+    #[test]
+    fn what_cannot_be_hit_has_no_box() {
+        for bad in [f32::NAN, f32::INFINITY] {
+            let mut positions = [0.0, 1.0, 2.0].map(|x| Point3::new(x, x * x, 0.0)).to_vec();
+            let good = Aabb::around(positions.iter().copied());
+            positions.push(Point3::new(7.0, bad, 0.0));
+            let mesh = TriangleMesh::new(positions, vec![[0, 1, 2], [0, 1, 3]]).unwrap();
+            assert!(mesh.triangle_bounds(1).is_empty());
+            assert_eq!(mesh.bounds(), good);
+        }
     }
 
     #[test]

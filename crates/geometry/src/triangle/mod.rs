@@ -67,24 +67,26 @@ impl TriangleTest {
         }
     }
 
-    /// Makes the test ready for one ray, which must be valid. `single` chooses single precision,
-    /// which is enough where the triangles are not far away compared with their extent.
+    /// Makes the test ready for one ray, which must be valid. `single` allows single precision,
+    /// which is enough for the watertight test where the triangles are not far away compared with
+    /// their extent. The other two compute in double precision all the same: in single precision
+    /// the t of a sliver can be off by any amount (see `barycentric.rs`).
     #[must_use]
     #[inline]
     pub fn prepare(self, ray: &Ray<f64>, single: bool, rule: EdgeRule) -> PreparedTriangleTest {
-        let near = Ray {
-            origin: ray.origin.cast(),
-            direction: ray.direction.cast(),
-            t_min: ray.t_min as f32,
-            t_max: ray.t_max as f32,
-        };
-        let kernel = match (self, single) {
-            (Self::Watertight, true) => Kernel::WatertightSingle(near, Watertight::new(&near)),
-            (Self::Watertight, false) => Kernel::WatertightDouble(*ray, Watertight::new(ray)),
-            (Self::MollerTrumbore, true) => Kernel::MollerTrumboreSingle(near),
-            (Self::MollerTrumbore, false) => Kernel::MollerTrumboreDouble(*ray),
-            (Self::Cramer, true) => Kernel::CramerSingle(near),
-            (Self::Cramer, false) => Kernel::CramerDouble(*ray),
+        let kernel = match self {
+            Self::Watertight if single => {
+                let near = Ray {
+                    origin: ray.origin.cast(),
+                    direction: ray.direction.cast(),
+                    t_min: ray.t_min as f32,
+                    t_max: ray.t_max as f32,
+                };
+                Kernel::WatertightSingle(near, Watertight::new(&near))
+            }
+            Self::Watertight => Kernel::WatertightDouble(*ray, Watertight::new(ray)),
+            Self::MollerTrumbore => Kernel::MollerTrumbore(*ray),
+            Self::Cramer => Kernel::Cramer(*ray),
         };
         PreparedTriangleTest { kernel, rule }
     }
@@ -135,10 +137,8 @@ pub struct PreparedTriangleTest {
 enum Kernel {
     WatertightSingle(Ray<f32>, Watertight<f32>),
     WatertightDouble(Ray<f64>, Watertight<f64>),
-    MollerTrumboreSingle(Ray<f32>),
-    MollerTrumboreDouble(Ray<f64>),
-    CramerSingle(Ray<f32>),
-    CramerDouble(Ray<f64>),
+    MollerTrumbore(Ray<f64>),
+    Cramer(Ray<f64>),
 }
 
 impl PreparedTriangleTest {
@@ -151,10 +151,8 @@ impl PreparedTriangleTest {
         match &self.kernel {
             Kernel::WatertightSingle(ray, test) => test.crossing(ray, corners, rule),
             Kernel::WatertightDouble(ray, test) => test.crossing(ray, wide(), rule),
-            Kernel::MollerTrumboreSingle(ray) => MollerTrumbore.crossing(ray, corners, rule),
-            Kernel::MollerTrumboreDouble(ray) => MollerTrumbore.crossing(ray, wide(), rule),
-            Kernel::CramerSingle(ray) => Cramer.crossing(ray, corners, rule),
-            Kernel::CramerDouble(ray) => Cramer.crossing(ray, wide(), rule),
+            Kernel::MollerTrumbore(ray) => MollerTrumbore.crossing(ray, wide(), rule),
+            Kernel::Cramer(ray) => Cramer.crossing(ray, wide(), rule),
         }
     }
 }

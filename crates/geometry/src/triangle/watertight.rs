@@ -102,8 +102,9 @@ fn edge<T: Real>(p: Vector3<T>, q: Vector3<T>) -> T {
 /// The same with the true sign, as long as no product leaves the number range.
 ///
 /// Products of two singles are exact here. Products of two doubles are not: where they round to the
-/// same number, the difference is that of their rounding errors, which a fused multiply-add tells
-/// (Dekker, "A floating-point technique for extending the available precision", 1971).
+/// same number, the difference is that of their rounding errors. That a product's own error is a
+/// number is Dekker's ("A floating-point technique for extending the available precision",
+/// Numerische Mathematik 18, 1971); to ask a fused multiply-add for it is Kahan's.
 fn edge_exact(p: Vector3<f64>, q: Vector3<f64>) -> f64 {
     let (left, right) = (p.x * q.y, p.y * q.x);
     let difference = left - right;
