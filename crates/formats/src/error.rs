@@ -218,7 +218,7 @@ pub enum Fault {
         folder: PathBuf,
     },
     /// A scene file that does not say what a scene file says.
-    #[error("{0}")]
+    #[error("{}", one_line(.0))]
     Description(String),
     /// A mesh that does not hold together.
     #[error(transparent)]

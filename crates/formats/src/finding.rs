@@ -79,6 +79,13 @@ pub enum Finding {
         /// Where it is used first.
         line: u64,
     },
+    /// Something in a model that a scene file refers to.
+    InModel {
+        /// The model's name as the scene file gives it.
+        file: String,
+        /// What there is to hear of it.
+        about: Box<Finding>,
+    },
 }
 
 impl fmt::Display for Finding {
@@ -154,6 +161,7 @@ impl fmt::Display for Finding {
                 "line {line}: material \"{}\" is not defined: default grey used",
                 one_line(name)
             ),
+            Self::InModel { file, about } => write!(f, "{}: {about}", one_line(file)),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! How much a reader may take on.
 
+use crate::error::{Fault, FormatError};
+
 /// Bounds on what a file may make a reader do.
 ///
 /// Memory follows the content that is really there, never a count that a header declares; these
@@ -11,8 +13,8 @@ pub struct Limits {
     /// Longest line of a text file, in bytes. 64 MiB by default: a polygon of millions of corners
     /// is one line.
     pub line_bytes: usize,
-    /// Most pixels of one image, and of all the textures of one model together. 67,108,864 by
-    /// default, which is 8192 × 8192.
+    /// Most pixels of one image, and of all the textures together of one model or one scene file
+    /// with its models. 67,108,864 by default, which is 8192 × 8192.
     pub image_pixels: u64,
 }
 
@@ -24,4 +26,18 @@ impl Default for Limits {
             image_pixels: 8192 * 8192,
         }
     }
+}
+
+/// Takes the pixels of a texture from what may still be loaded.
+pub(crate) fn take_pixels(left: &mut Limits, width: u32, height: u32) -> Result<(), FormatError> {
+    let (width, height) = (u64::from(width), u64::from(height));
+    let limit = left.image_pixels;
+    left.image_pixels = limit.checked_sub(width * height).ok_or_else(|| {
+        FormatError::file(Fault::ImageTooLarge {
+            width,
+            height,
+            limit,
+        })
+    })?;
+    Ok(())
 }

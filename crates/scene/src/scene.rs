@@ -103,11 +103,26 @@ impl Scene {
         material: MaterialId,
         world_from_object: Transform<ObjectSpace, World>,
     ) {
-        let name = name.into();
+        let geometry = self.add_geometry(geometry);
+        self.place_again(name, geometry, material, world_from_object);
+    }
+
+    /// Adds a geometry that no object places yet.
+    pub fn add_geometry(&mut self, geometry: Geometry) -> GeometryId {
         self.geometries.push(geometry);
-        let geometry = GeometryId(self.geometries.len() as u32 - 1);
+        GeometryId(self.geometries.len() as u32 - 1)
+    }
+
+    /// Adds an object with one of the geometries, which others may share, and one of the materials.
+    pub fn place_again(
+        &mut self,
+        name: impl Into<String>,
+        geometry: GeometryId,
+        material: MaterialId,
+        world_from_object: Transform<ObjectSpace, World>,
+    ) {
         self.objects.push(Object {
-            name,
+            name: name.into(),
             geometry,
             material,
             world_from_object,

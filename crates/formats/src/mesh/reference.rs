@@ -5,7 +5,8 @@ use std::path::{Component, Path, PathBuf};
 use crate::finding::Finding;
 
 /// The file that a model in `folder` means by `name`, if it is there and within that folder
-/// (links followed); otherwise what to tell the user.
+/// (links followed); otherwise what to tell the user. The path begins with `folder` as it is given,
+/// so that messages name files as the user does.
 ///
 /// Both `/` and `\` part the folders of a name. `what` is "materials file" or "texture".
 pub(crate) fn resolve(folder: &Path, name: &str, what: &'static str) -> Result<PathBuf, Finding> {
@@ -24,21 +25,19 @@ pub(crate) fn resolve(folder: &Path, name: &str, what: &'static str) -> Result<P
     if drive || relative.components().any(climbs) {
         return Err(outside());
     }
+    let file = folder.join(relative);
     // The model's folder is "" for a bare file name, which no system call takes.
     let folder = if folder.as_os_str().is_empty() {
         Path::new(".")
     } else {
         folder
     };
-    let folder = folder.canonicalize().map_err(|_| missing())?;
-    let file = folder
-        .join(relative)
-        .canonicalize()
-        .map_err(|_| missing())?;
-    if !file.starts_with(&folder) {
+    let real_folder = folder.canonicalize().map_err(|_| missing())?;
+    let real_file = file.canonicalize().map_err(|_| missing())?;
+    if !real_file.starts_with(&real_folder) {
         return Err(outside());
     }
-    if file.is_file() {
+    if real_file.is_file() {
         Ok(file)
     } else {
         Err(missing())
@@ -57,7 +56,7 @@ mod tests {
         std::fs::write(outer.path().join("secret"), "").unwrap();
         std::fs::write(folder.join("maps/wood.png"), "").unwrap();
         let resolve = |name: &str| resolve(&folder, name, "texture");
-        assert!(resolve("maps/wood.png").is_ok());
+        assert_eq!(resolve("maps/wood.png"), Ok(folder.join("maps/wood.png")));
         assert!(resolve("maps\\wood.png").is_ok());
         for name in [
             "../secret",

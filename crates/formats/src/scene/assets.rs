@@ -1,13 +1,16 @@
 //! The files that a scene file refers to.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ombra_scene::Image;
+use ombra_scene::{Image, Texture};
 
-use crate::error::{Fault, FormatError};
+use super::build::wrong;
+use crate::error::FormatError;
+use crate::finding::Finding;
 use crate::image::read_texture;
-use crate::limits::Limits;
+use crate::limits::{Limits, take_pixels};
 use crate::mesh::{Model, read_model, read_model_bytes, resolve};
 
 /// Where the files are that a scene file refers to.
@@ -19,35 +22,72 @@ pub enum Assets<'a> {
     Embedded(&'a [(&'a str, &'a [u8])]),
 }
 
-impl Assets<'_> {
-    pub(super) fn model(&self, name: &str, limits: &Limits) -> Result<Model, FormatError> {
-        match self {
-            Self::Folder(folder) => read_model(Self::path(folder, name, "model")?, limits),
-            Self::Embedded(files) => {
+/// Reads assets within limits that hold for all of them together.
+pub(super) struct Loader<'a> {
+    assets: &'a Assets<'a>,
+    /// What is left of it for textures.
+    limits: Limits,
+    images: HashMap<PathBuf, Arc<Image>>,
+}
+
+impl<'a> Loader<'a> {
+    pub(super) fn new(assets: &'a Assets<'a>, limits: &Limits) -> Self {
+        Self {
+            assets,
+            limits: limits.clone(),
+            images: HashMap::new(),
+        }
+    }
+
+    pub(super) fn model(&mut self, name: &str) -> Result<Model, FormatError> {
+        let model = match self.assets {
+            Assets::Folder(folder) => read_model(path(folder, name, "model")?, &self.limits)?,
+            Assets::Embedded(files) => {
                 let file = files.iter().find(|(known, _)| *known == name);
                 let (_, bytes) = file.ok_or_else(|| missing(name, "model"))?;
-                read_model_bytes(Path::new(name), bytes, limits)
+                read_model_bytes(Path::new(name), bytes, &self.limits)?
+            }
+        };
+        let mut counted = Vec::new();
+        for material in &model.materials {
+            if let Texture::Image(image) = &material.diffuse {
+                let address = Arc::as_ptr(image);
+                if !counted.contains(&address) {
+                    counted.push(address);
+                    take_pixels(&mut self.limits, image.width(), image.height())?;
+                }
             }
         }
+        Ok(model)
     }
 
-    pub(super) fn image(&self, name: &str, limits: &Limits) -> Result<Arc<Image>, FormatError> {
-        match self {
-            Self::Folder(folder) => {
-                let path = Self::path(folder, name, "texture")?;
-                Ok(Arc::new(read_texture(&path, limits)?))
-            }
+    /// A texture; each file is read once.
+    pub(super) fn image(&mut self, name: &str) -> Result<Arc<Image>, FormatError> {
+        let path = match self.assets {
+            Assets::Folder(folder) => path(folder, name, "texture")?,
             // No built-in scene has a texture.
-            Self::Embedded(_) => Err(missing(name, "texture")),
+            Assets::Embedded(_) => return Err(missing(name, "texture")),
+        };
+        if let Some(image) = self.images.get(&path) {
+            return Ok(Arc::clone(image));
         }
-    }
-
-    fn path(folder: &Path, name: &str, what: &'static str) -> Result<PathBuf, FormatError> {
-        resolve(folder, name, what)
-            .map_err(|finding| FormatError::file(Fault::Description(finding.to_string())))
+        let image = Arc::new(read_texture(&path, &self.limits)?);
+        take_pixels(&mut self.limits, image.width(), image.height())
+            .map_err(|e| e.in_file(&path))?;
+        self.images.insert(path, Arc::clone(&image));
+        Ok(image)
     }
 }
 
+fn path(folder: &Path, name: &str, what: &'static str) -> Result<PathBuf, FormatError> {
+    resolve(folder, name, what).map_err(|finding| match finding {
+        Finding::OutsideFolder { .. } => wrong(format!(
+            "{what} {name} lies outside the scene file's folder: not opened"
+        )),
+        _ => missing(name, what),
+    })
+}
+
 fn missing(name: &str, what: &'static str) -> FormatError {
-    FormatError::file(Fault::Description(format!("{what} {name} not found")))
+    wrong(format!("{what} {name} not found"))
 }

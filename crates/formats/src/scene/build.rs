@@ -1,21 +1,24 @@
 //! From the words of a scene file to a scene.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
 
 use ombra_accel::{Geometry, Mesh, Shapes};
 use ombra_geometry::triangle::TriangleTest;
-use ombra_geometry::{Angle, Object, Point3, Transform, TriangleMesh, Vector3, World};
+use ombra_geometry::{Angle, GeometryId, Object, Point3, Transform, TriangleMesh, Vector3, World};
 use ombra_scene::camera::{Orthographic, Panorama, Perspective, Pose, Projection, ThinLens};
 use ombra_scene::light::Falloff;
 use ombra_scene::{Camera, Light, Material, MaterialId, Rgb, Scene, Texture};
 use toml::Spanned;
 
+use super::assets::Loader;
 use super::description::{
     CameraSpec, ColourSpec, Description, FalloffSpec, LightSpec, MaterialSpec, ObjectSpec,
-    ProjectionSpec, ScaleSpec, TextureSpec, TransformSpec,
+    ProjectionSpec, TextureSpec,
 };
-use super::{Assets, Picture, SceneFile, line_of};
+use super::picture::picture;
+use super::placement::placement;
+use super::{Assets, SceneFile, line_of};
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
 use crate::limits::Limits;
@@ -24,14 +27,24 @@ use crate::mesh::smooth_normals;
 /// Where two triangles of a mesh without normals meet at less than this, the edge looks smooth.
 const CREASE: Angle = Angle::from_degrees(35.0);
 
+/// A model whose geometries are in the scene, wherever objects place them.
+struct LoadedModel {
+    /// Name, geometry and material of each part.
+    parts: Vec<(String, GeometryId, usize)>,
+    materials: Vec<Material>,
+    /// Where in the scene its own materials begin, once an object needs them.
+    first_material: Option<usize>,
+}
+
 /// What everything else is built with.
 struct Builder<'a> {
     text: &'a str,
-    assets: &'a Assets<'a>,
+    loader: Loader<'a>,
     test: TriangleTest,
-    limits: &'a Limits,
     scene: Scene,
     named: BTreeMap<String, MaterialId>,
+    /// Models that are in the scene already, by their names.
+    models: HashMap<String, LoadedModel>,
     findings: Vec<Finding>,
 }
 
@@ -44,11 +57,11 @@ pub(super) fn build(
 ) -> Result<SceneFile, FormatError> {
     let mut builder = Builder {
         text,
-        assets,
+        loader: Loader::new(assets, limits),
         test,
-        limits,
         scene: Scene::default(),
         named: BTreeMap::new(),
+        models: HashMap::new(),
         findings: Vec::new(),
     };
     builder.scene.background = colour("background", description.background)?;
@@ -65,13 +78,9 @@ pub(super) fn build(
     if let Some(spec) = &description.camera {
         builder.at(spec, Builder::camera)?;
     }
-    let picture = Picture {
-        size: description.picture.size,
-        spp: description.picture.spp,
-    };
     Ok(SceneFile {
         scene: builder.scene,
-        picture,
+        picture: picture(&description.picture, text)?,
         findings: builder.findings,
     })
 }
@@ -83,7 +92,7 @@ impl Builder<'_> {
         spec: &Spanned<T>,
         build: impl FnOnce(&mut Self, &T) -> Result<(), FormatError>,
     ) -> Result<(), FormatError> {
-        let place = line_of(self.text, spec.span().start);
+        let place = line_of(self.text.as_bytes(), spec.span().start);
         build(self, spec.get_ref()).map_err(|error| error.at(place))
     }
 
@@ -113,7 +122,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn texture(&self, spec: &TextureSpec) -> Result<Texture, FormatError> {
+    fn texture(&mut self, spec: &TextureSpec) -> Result<Texture, FormatError> {
         match spec {
             TextureSpec::Constant(constant) => Ok(colour("diffuse", *constant)?.into()),
             TextureSpec::Checker(spec) => {
@@ -123,9 +132,7 @@ impl Builder<'_> {
                     size: above_zero("size", spec.size)?,
                 })
             }
-            TextureSpec::Image(spec) => {
-                Ok(Texture::Image(self.assets.image(&spec.image, self.limits)?))
-            }
+            TextureSpec::Image(spec) => Ok(Texture::Image(self.loader.image(&spec.image)?)),
         }
     }
 
@@ -195,21 +202,45 @@ impl Builder<'_> {
         material: Option<MaterialId>,
         placed: Transform<Object, World>,
     ) -> Result<(), FormatError> {
-        let model = self.assets.model(file, self.limits)?;
-        self.findings.extend(model.findings);
-        let first = self.scene.materials.len();
-        if material.is_none() {
-            self.scene.materials.extend(model.materials);
+        let mut loaded = match self.models.remove(file) {
+            Some(loaded) => loaded,
+            None => self.load(file)?,
+        };
+        let first = match (material, loaded.first_material) {
+            (None, None) => {
+                let first = self.scene.materials.len();
+                self.scene.materials.append(&mut loaded.materials);
+                *loaded.first_material.insert(first)
+            }
+            (_, first) => first.unwrap_or_default(),
+        };
+        for (part, geometry, own) in &loaded.parts {
+            let material = material.unwrap_or(MaterialId((first + own) as u32));
+            let name = format!("{name}, {part}");
+            self.scene.place_again(name, *geometry, material, placed);
         }
-        for part in model.parts {
-            let mesh = with_normals(part.mesh)?;
-            let geometry = Geometry::Mesh(Mesh::with_test(mesh, self.test));
-            let own = MaterialId((first + part.material) as u32);
-            let name = format!("{name}, {}", part.name);
-            self.scene
-                .place(name, geometry, material.unwrap_or(own), placed);
-        }
+        self.models.insert(file.to_owned(), loaded);
         Ok(())
+    }
+
+    fn load(&mut self, file: &str) -> Result<LoadedModel, FormatError> {
+        let model = self.loader.model(file)?;
+        let findings = model.findings.into_iter().map(Box::new);
+        self.findings.extend(findings.map(|about| {
+            let file = file.to_owned();
+            Finding::InModel { file, about }
+        }));
+        let mut parts = Vec::with_capacity(model.parts.len());
+        for part in model.parts {
+            let mesh = Mesh::with_test(with_normals(part.mesh)?, self.test);
+            let geometry = self.scene.add_geometry(Geometry::Mesh(mesh));
+            parts.push((part.name, geometry, part.material));
+        }
+        Ok(LoadedModel {
+            parts,
+            materials: model.materials,
+            first_material: None,
+        })
     }
 
     fn camera(&mut self, spec: &CameraSpec) -> Result<(), FormatError> {
@@ -290,33 +321,6 @@ impl From<FalloffSpec> for Falloff {
             FalloffSpec::InverseSquare => Self::InverseSquare,
         }
     }
-}
-
-/// Steps taken in the order in which they are written.
-fn placement(steps: &[TransformSpec]) -> Result<Transform<Object, World>, FormatError> {
-    let mut all = Transform::<Object, Object>::identity();
-    for step in steps {
-        let next = match step {
-            TransformSpec::Translate(offset) => Transform::translation((*offset).into()),
-            TransformSpec::Rotate(spec) => {
-                Transform::rotation(spec.axis.into(), spec.degrees.to_radians())
-            }
-            TransformSpec::Scale(spec) => {
-                let factors = match *spec {
-                    ScaleSpec::Uniform(factor) => [factor; 3],
-                    ScaleSpec::Axes(factors) => factors,
-                };
-                if !factors.iter().all(|f| f.is_finite() && *f != 0.0) {
-                    return Err(wrong(format!("scale is {factors:?}; no factor may be 0")));
-                }
-                Transform::scale(factors.into())
-            }
-        };
-        all = all.then::<Object>(&next);
-    }
-    let placed: Transform<Object, World> = all.then(&Transform::identity());
-    // Numbers such as 1e300 may have overflowed on the way.
-    Transform::from_rows(*placed.rows()).map_err(|e| wrong(format!("transform: {e}")))
 }
 
 pub(super) fn wrong(message: String) -> FormatError {

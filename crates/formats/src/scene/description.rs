@@ -30,8 +30,8 @@ pub(super) struct Description {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PictureSpec {
-    pub(super) size: Option<[u32; 2]>,
-    pub(super) spp: Option<u32>,
+    pub(super) size: Option<Spanned<[u32; 2]>>,
+    pub(super) spp: Option<Spanned<u32>>,
 }
 
 #[derive(Debug, Deserialize)]

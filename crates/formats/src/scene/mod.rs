@@ -6,19 +6,24 @@
 mod assets;
 mod build;
 mod description;
+mod picture;
+mod placement;
 mod shapes;
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use ombra_geometry::triangle::TriangleTest;
 use ombra_scene::Scene;
 
-use crate::error::{Fault, FormatError, Place, one_line};
+use crate::error::{Fault, FormatError, Place};
 use crate::finding::Finding;
 use crate::limits::Limits;
 
 pub use assets::Assets;
 pub use build::with_normals;
+pub use picture::Picture;
 
 /// What a scene file holds.
 #[derive(Clone, Debug)]
@@ -29,15 +34,6 @@ pub struct SceneFile {
     pub picture: Picture,
     /// What its user should hear of.
     pub findings: Vec<Finding>,
-}
-
-/// What a scene wants to be rendered like, unless somebody says otherwise.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Picture {
-    /// Width and height in pixels.
-    pub size: Option<[u32; 2]>,
-    /// Samples a pixel.
-    pub spp: Option<u32>,
 }
 
 /// The longest scene file, in bytes: they are written by hand.
@@ -54,24 +50,33 @@ pub fn read_scene(
     limits: &Limits,
 ) -> Result<SceneFile, FormatError> {
     let path = path.as_ref();
-    let cannot = |source| {
-        FormatError::file(Fault::Io {
-            action: "be read",
-            source,
-        })
-        .in_file(path)
-    };
-    let size = std::fs::metadata(path).map_err(cannot)?.len();
-    if size > MOST_BYTES {
-        let fault = Fault::TooLarge {
-            what: "scene file",
-            limit: MOST_BYTES,
-        };
-        return Err(FormatError::file(fault).in_file(path));
-    }
-    let text = std::fs::read_to_string(path).map_err(cannot)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    parse_scene(&text, &Assets::Folder(folder), test, limits).map_err(|e| e.in_file(path))
+    text_of(path)
+        .and_then(|text| parse_scene(&text, &Assets::Folder(folder), test, limits))
+        .map_err(|e| e.in_file(path))
+}
+
+/// The text of a scene file, which may be a pipe: its length is known once it is read.
+fn text_of(path: &Path) -> Result<String, FormatError> {
+    let cannot = |source| {
+        let action = "be read";
+        FormatError::file(Fault::Io { action, source })
+    };
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(cannot)?;
+    file.take(MOST_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(cannot)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let (what, limit) = ("scene file", MOST_BYTES);
+        return Err(FormatError::file(Fault::TooLarge { what, limit }));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let place = line_of(error.as_bytes(), error.utf8_error().valid_up_to());
+        let expected = "text (UTF-8)";
+        let found = "something else".to_owned();
+        FormatError::new(place, Fault::Unexpected { found, expected })
+    })
 }
 
 /// Reads a scene from the text of a scene file.
@@ -87,14 +92,14 @@ pub fn parse_scene(
     let description = toml::from_str(text).map_err(|error| {
         let place = error
             .span()
-            .map_or(Place::File, |span| line_of(text, span.start));
-        FormatError::new(place, Fault::Description(one_line(error.message())))
+            .map_or(Place::File, |span| line_of(text.as_bytes(), span.start));
+        FormatError::new(place, Fault::Description(error.message().to_owned()))
     })?;
     build::build(description, text, assets, test, limits)
 }
 
 /// The line, from 1, that a byte of a text is in.
-fn line_of(text: &str, byte: usize) -> Place {
-    let before = &text.as_bytes()[..byte.min(text.len())];
+fn line_of(text: &[u8], byte: usize) -> Place {
+    let before = &text[..byte.min(text.len())];
     Place::Line(1 + before.iter().filter(|&&b| b == b'\n').count() as u64)
 }

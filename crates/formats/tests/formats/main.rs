@@ -6,6 +6,7 @@ mod images;
 mod materials;
 mod models;
 mod real;
+mod scenes;
 
 use std::path::{Path, PathBuf};
 

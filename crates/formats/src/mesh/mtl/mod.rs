@@ -14,7 +14,7 @@ use super::reference::resolve;
 use crate::error::{Fault, FormatError, quoted};
 use crate::finding::Finding;
 use crate::image::read_texture;
-use crate::limits::Limits;
+use crate::limits::{Limits, take_pixels};
 use crate::number::Words;
 use crate::source::Source;
 
@@ -72,11 +72,9 @@ impl Library {
         name: &str,
         findings: &mut Vec<Finding>,
     ) -> Result<(), FormatError> {
-        // The user knows the file by the model's folder, not by where links lead.
-        let shown = self.folder.join(name);
-        let mut source = Source::open(path, &self.limits).map_err(|e| e.in_file(&shown))?;
-        self.read(&mut source, name, findings)
-            .map_err(|e| e.in_file(&shown))
+        Source::open(path, &self.limits)
+            .and_then(|mut source| self.read(&mut source, name, findings))
+            .map_err(|e| e.in_file(path))
     }
 
     fn read(
@@ -150,7 +148,7 @@ impl Library {
         if let Some(texture) = definition.texture() {
             match resolve(&self.folder, texture, TEXTURE) {
                 Ok(path) => {
-                    let image = self.image(&path, texture)?;
+                    let image = self.image(&path)?;
                     let factor = material.diffuse.average();
                     material.diffuse = Texture::Image(self.tinted(image, factor)?);
                 }
@@ -160,13 +158,12 @@ impl Library {
         Ok(material)
     }
 
-    fn image(&mut self, path: &Path, name: &str) -> Result<Arc<Image>, FormatError> {
+    fn image(&mut self, path: &Path) -> Result<Arc<Image>, FormatError> {
         if let Some(image) = self.images.get(path) {
             return Ok(Arc::clone(image));
         }
-        let shown = self.folder.join(name);
-        let image = read_texture(path, &self.limits).map_err(|e| e.in_file(&shown))?;
-        self.account(&image).map_err(|e| e.in_file(&shown))?;
+        let image = read_texture(path, &self.limits)?;
+        self.account(&image).map_err(|e| e.in_file(path))?;
         let image = Arc::new(image);
         self.images.insert(path.to_owned(), Arc::clone(&image));
         Ok(image)
@@ -186,16 +183,6 @@ impl Library {
 
     /// Takes the pixels of an image from what may still be loaded.
     fn account(&mut self, image: &Image) -> Result<(), FormatError> {
-        let (width, height) = (u64::from(image.width()), u64::from(image.height()));
-        let limit = self.limits.image_pixels;
-        let left = limit.checked_sub(width * height);
-        self.limits.image_pixels = left.ok_or_else(|| {
-            FormatError::file(Fault::ImageTooLarge {
-                width,
-                height,
-                limit,
-            })
-        })?;
-        Ok(())
+        take_pixels(&mut self.limits, image.width(), image.height())
     }
 }
