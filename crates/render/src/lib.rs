@@ -52,7 +52,7 @@ mod settings;
 mod watch;
 
 pub use film::{Crop, Film};
-pub use integrator::{IntegratorKind, UnknownIntegrator};
+pub use integrator::IntegratorKind;
 pub use render::{RenderError, Rendering, render};
 pub use sampler::SamplerKind;
 pub use settings::{MAX_DEPTH, MAX_PIXELS, MAX_SIDE, MAX_SPP, Settings};

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use ombra_pipeline::{Control, Cpu, Done, LaunchError, RayGeneration};
+use ombra_pipeline::{Control, Cpu, Done, Exception, LaunchError, LaunchException, RayGeneration};
 use ombra_scene::{Camera, Rgb, World};
 
 use crate::exposure::Exposure;
@@ -72,9 +72,30 @@ pub enum RenderError {
         /// How many were asked for.
         max_depth: u32,
     },
+    /// Light bounced more often than the stack of a thread allows. It allows [`MAX_DEPTH`] bounces
+    /// unless threads were given less than the two megabytes that they have by default.
+    #[error(
+        "the stack of a thread is used up after {bounces} bounces: render with a smaller depth"
+    )]
+    StackOverflow {
+        /// How many bounces there was room for.
+        bounces: u32,
+    },
     /// A ray program raised an exception: a camera whose numbers make no rays.
     #[error(transparent)]
-    Launch(#[from] LaunchError),
+    Launch(LaunchError),
+}
+
+impl From<LaunchError> for RenderError {
+    fn from(error: LaunchError) -> Self {
+        match error {
+            LaunchError::Exception(LaunchException {
+                exception: Exception::StackOverflow { depth },
+                ..
+            }) => Self::StackOverflow { bounces: depth },
+            other => Self::Launch(other),
+        }
+    }
 }
 
 /// A picture, or as much of it as was done when it was stopped.
@@ -220,5 +241,22 @@ impl Counts {
             total: self.total,
             rays: add(&self.rays, done.rays),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stack_that_is_used_up_is_told_in_words_that_help() {
+        let error = RenderError::from(LaunchError::Exception(LaunchException {
+            index: [1, 2, 0],
+            exception: Exception::StackOverflow { depth: 77 },
+        }));
+        assert_eq!(
+            error.to_string(),
+            "the stack of a thread is used up after 77 bounces: render with a smaller depth"
+        );
     }
 }

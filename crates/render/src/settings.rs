@@ -5,8 +5,12 @@ use crate::{Crop, IntegratorKind, RenderError, SamplerKind};
 /// The longest side of a picture, in pixels: beyond, single precision runs out of places in a pixel.
 pub const MAX_SIDE: u32 = 1 << 16;
 
-/// The most pixels of a film.
-pub const MAX_PIXELS: u64 = 1 << 31;
+/// The most pixels of a film: larger pictures are rendered in parts, see [`Settings::crop`].
+///
+/// A film takes 32 bytes a pixel, so at most 8 GiB. [`Film::raw`](crate::Film::raw) and
+/// [`Film::display`](crate::Film::display) take 12 bytes a pixel more, the heat map of
+/// [`IntegratorKind::Cost`] 16.
+pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// The most samples a pixel.
 pub const MAX_SPP: u32 = 1 << 24;
@@ -151,5 +155,26 @@ mod tests {
             assert!(settings.validate().is_err(), "{settings:?}");
         }
         assert_eq!(crop(959, 539, 960, 540).validate(), Ok(()));
+    }
+
+    #[test]
+    fn a_film_is_limited_and_not_the_picture_that_it_is_a_part_of() {
+        let side = |height| Settings {
+            width: 1 << 14,
+            height,
+            ..Settings::default()
+        };
+        assert_eq!(side(1 << 14).validate(), Ok(()));
+        let pixels = MAX_PIXELS + (1 << 14);
+        let too_large = side((1 << 14) + 1);
+        assert_eq!(
+            too_large.validate(),
+            Err(RenderError::FilmTooLarge { pixels })
+        );
+        let part = Settings {
+            crop: Some(Crop::all(1 << 14, 1 << 14)),
+            ..too_large
+        };
+        assert_eq!(part.validate(), Ok(()));
     }
 }

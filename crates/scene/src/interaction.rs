@@ -114,18 +114,6 @@ impl Interaction {
         }
     }
 
-    /// A ray from here to a point, t in `[0, 1]`, that meets neither the surface it starts from
-    /// nor, were there one, a surface at its end.
-    #[must_use]
-    #[inline]
-    pub fn spawn_to(&self, target: Point3) -> Ray {
-        let origin = self.off_surface(target - self.point);
-        Ray {
-            t_max: 1.0 - TARGET_ROUNDING,
-            ..Ray::between(origin, target)
-        }
-    }
-
     fn off_surface(&self, direction: Vector3) -> Point3 {
         let side = self.normal.facing(-direction).to_vector();
         self.point + side * self.error

@@ -13,7 +13,7 @@ use ombra_scene::Rgb;
 pub(crate) use ao::AmbientOcclusion;
 pub(crate) use cost::Cost;
 pub(crate) use depth::Depth;
-pub use kind::{IntegratorKind, UnknownIntegrator};
+pub use kind::IntegratorKind;
 pub(crate) use normals::Normals;
 pub(crate) use whitted::Whitted;
 

@@ -7,9 +7,6 @@ mod hash;
 mod independent;
 mod sobol;
 
-use std::fmt;
-use std::str::FromStr;
-
 use hash::mix;
 
 /// How samples are spread.
@@ -26,47 +23,6 @@ pub enum SamplerKind {
 impl SamplerKind {
     /// All of them, the default first.
     pub const ALL: &[Self] = &[Self::Sobol, Self::Independent];
-
-    /// The name that a person types.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Sobol => "sobol",
-            Self::Independent => "independent",
-        }
-    }
-
-    /// What it is, in one line.
-    #[must_use]
-    pub const fn line(self) -> &'static str {
-        match self {
-            Self::Sobol => "Owen-scrambled Sobol points, evenly spread at every power of two",
-            Self::Independent => "independent random numbers",
-        }
-    }
-}
-
-/// A name that no sampler has.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no sampler \"{0}\"; there are: sobol, independent")]
-pub struct UnknownSampler(String);
-
-impl FromStr for SamplerKind {
-    type Err = UnknownSampler;
-
-    fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|kind| kind.name().eq_ignore_ascii_case(name))
-            .ok_or_else(|| UnknownSampler(name.to_owned()))
-    }
-}
-
-impl fmt::Display for SamplerKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
 }
 
 /// What a pair of numbers is for. Pairs for different ends are independent of one another.

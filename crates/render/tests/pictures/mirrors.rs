@@ -2,7 +2,8 @@
 
 use ombra_accel::{Geometry, Mesh};
 use ombra_geometry::{Normal3, Point3, TriangleMesh, Vector3};
-use ombra_scene::{Material, Rgb, Scene};
+use ombra_render::MAX_DEPTH;
+use ombra_scene::{Light, Material, Rgb, Scene};
 
 use crate::stage::*;
 
@@ -61,9 +62,23 @@ fn the_depth_is_the_number_of_bounces_and_beyond_it_is_the_background() {
 
 #[test]
 fn the_greatest_depth_fits_into_a_threads_stack() {
-    let deep = middle(facing_mirrors(), &flat_camera(1.0), ombra_render::MAX_DEPTH);
-    // The sum of both geometric series.
-    assert_close(deep, Rgb::grey((1.0 + 0.5 * 4.0) / (1.0 - 0.125)), 1e-5);
+    // They reflect all light, so that no ray is left out.
+    let part = |depth: f32| {
+        let material = Material {
+            reflection: Rgb::WHITE,
+            ..Material::matt("mirror", Rgb::WHITE)
+        };
+        (wall(depth, 9.0), material)
+    };
+    let light = Light::Directional {
+        direction: -Vector3::Z,
+        intensity: Rgb::BLACK,
+    };
+    let mut seen = scene(vec![part(-1.0), part(12.0)], vec![light]);
+    seen.ambient = Rgb::WHITE;
+    let deep = middle(seen, &flat_camera(1.0), MAX_DEPTH);
+    // One local part for each surface that is met, and black behind the last.
+    assert_eq!(deep, Rgb::grey(1.0 + MAX_DEPTH as f32));
 }
 
 /// A triangle in the plane z = 0 whose normals lean a long way to one side.

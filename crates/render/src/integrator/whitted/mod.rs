@@ -3,6 +3,8 @@
 mod local;
 mod shadow;
 mod side;
+#[cfg(test)]
+mod tests;
 
 use ombra_geometry::{Hit, Ray};
 use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
@@ -22,14 +24,22 @@ use side::Side;
 /// - any other surface: Phong's local term, plus what is seen in the mirror direction, plus what is
 ///   seen through the surface, each by a ray with one step more.
 ///
-/// A ray that would change its pixel by less than a thousandth is taken to see the background, like
-/// one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE Computer
-/// Graphics and Applications 3(8), 1983. In glass every ray becomes two, so without this the number
-/// of rays doubles with every step.
+/// A ray of whose light less than a thousandth arrives at the pixel is taken to see the background,
+/// like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
+/// Computer Graphics and Applications 3(8), 1983. In glass every ray becomes two, so without this the
+/// number of rays doubles with every step. With it, where surfaces are grey and pass on no more light
+/// than arrives (reflection + transmission ≤ 1), the rays of one step have shares that add up to no
+/// more than 1, so there are at most a thousand of them, and in glass far fewer.
+///
+/// Each ray that is left out changes its pixel by less than a thousandth of the difference between
+/// what it would have seen and the background, and there may be several: in four nested spheres of
+/// glass they add up to less than 1/256 of the largest such difference at 8 bounces and to less than
+/// 1/128 at 12 (see the tests).
 pub(crate) struct Whitted<'a> {
     world: &'a World,
     exposure: Exposure<'a>,
     max_depth: u32,
+    least_importance: f32,
 }
 
 /// What a ray's light must count for in its pixel for the ray to be worth tracing.
@@ -48,7 +58,8 @@ impl RayType for Radiance {
 struct Traced {
     /// How often its light was reflected or refracted on the way.
     step: u32,
-    /// What share of its light arrives at the pixel, in the colour of which most does.
+    /// What share of its light arrives at the pixel, at most: the product of what the surfaces on
+    /// the way pass on of the colour of which they pass on most.
     importance: f32,
     /// What it brought.
     radiance: Rgb,
@@ -60,6 +71,7 @@ impl<'a> Whitted<'a> {
             world,
             exposure,
             max_depth,
+            least_importance: LEAST_IMPORTANCE,
         }
     }
 
@@ -72,7 +84,7 @@ impl<'a> Whitted<'a> {
         importance: f32,
     ) -> Result<Rgb, Exception> {
         let background = self.world.scene().background;
-        if step > self.max_depth || importance < LEAST_IMPORTANCE {
+        if step > self.max_depth || importance < self.least_importance {
             return Ok(background);
         }
         let mut traced = Traced {
