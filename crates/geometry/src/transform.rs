@@ -359,7 +359,7 @@ mod tests {
             scale(1e-200).then(&scale(1e-200)),
             scale(1e200).then(&scale(1e200)),
             far.then(&scale(1e200)),
-            Transform::rotation(Vector3::X, f64::INFINITY),
+            Transform::rotation(Vector3::new(1.0, 0.0, 0.0), f64::INFINITY),
         ] {
             let refused = Transform::<Object, Object>::from_rows(*broken.rows());
             assert!(refused.is_err(), "{broken:?}");

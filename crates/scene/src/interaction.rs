@@ -147,24 +147,14 @@ impl Local {
         let [a, b, c] = mesh.corners(triangle);
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let (ab, ac) = (b.wide() - a.wide(), c.wide() - a.wide());
-        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
-        let ids = mesh.triangles()[triangle].map(|i| i as usize);
-        let interpolated_normal = mesh.normals().and_then(|normals| {
-            let [a, b, c] = ids.map(|i| normals[i]);
-            let blended = (a * weights[0] + b * weights[1] + c * weights[2]).wide();
-            // Opposite normals may cancel out.
-            (blended.length() > 0.0).then_some(blended)
-        });
-        let uv = mesh.uvs().map_or([hit.u, hit.v], |uvs| {
-            let corner = ids.map(|i| uvs[i]);
-            std::array::from_fn(|k| (0..3).map(|i| corner[i][k] * weights[i]).sum())
-        });
         Self {
             // In double precision the point lies on the triangle, whatever the rounding of u and v.
             point: a.wide() + ab * u + ac * v,
             normal: ab.cross(ac).to_normal(),
-            interpolated_normal,
-            uv,
+            interpolated_normal: mesh
+                .interpolated_normal(triangle, hit.u, hit.v)
+                .map(Normal3::wide),
+            uv: mesh.uv_at(triangle, hit.u, hit.v).unwrap_or([hit.u, hit.v]),
             test_extent: ab.max_norm().max(ac.max_norm()) as f32,
             slide: 0.0,
         }

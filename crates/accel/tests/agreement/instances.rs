@@ -187,7 +187,7 @@ fn moved_rays(rays: &[Ray], x: f32) -> Vec<Ray> {
 #[test]
 fn a_geometry_placed_as_it_is_answers_bit_for_bit_like_the_geometry_alone() {
     for (name, mesh) in meshes::all() {
-        let rays = rays::of_mesh(&mesh, 0.25);
+        let rays = rays::of_mesh(&mesh, 0.15);
         let geometry = meshes::geometry(mesh);
         for &kind in StructureKind::ALL {
             let alone = Arc::new(Accel::build(geometry.clone(), kind));

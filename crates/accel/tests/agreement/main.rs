@@ -24,7 +24,7 @@ use numbers::Numbers;
 #[test]
 fn every_structure_agrees_with_brute_force_on_meshes() {
     for (name, mesh) in meshes::all() {
-        let rays = rays::of_mesh(&mesh, 0.6);
+        let rays = rays::of_mesh(&mesh, 0.4);
         let hits = assert_agreement(name, &meshes::geometry(mesh), &rays);
         assert_eq!(hits == 0, name == "nothing", "{name}: {hits} hits");
     }

@@ -49,7 +49,8 @@ fn every_structure_agrees_with_brute_force_on_the_teapot() {
 #[test]
 fn every_structure_agrees_with_brute_force_on_the_bunny() {
     if let Some(bunny) = read("stanford-bunny.obj") {
-        let rays = rays::of_mesh(&bunny, 0.03);
+        // Brute force has 69 451 triangles to test for every question: a few rays of each kind.
+        let rays: Vec<_> = rays::of_mesh(&bunny, 0.03).into_iter().step_by(3).collect();
         let hits = assert_agreement("bunny", &meshes::geometry(bunny), &rays);
         assert!(hits > 0);
     }

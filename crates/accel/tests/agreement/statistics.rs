@@ -82,3 +82,28 @@ fn a_ray_from_afar_costs_hardly_more_than_one_from_nearby() {
         }
     }
 }
+
+#[test]
+fn a_ray_from_afar_that_passes_by_tests_nothing() {
+    let ball = meshes::geometry(meshes::icosphere(2));
+    let mut numbers = Numbers::new(52);
+    for &kind in StructureKind::ALL {
+        if kind == StructureKind::BruteForce {
+            continue;
+        }
+        let accel = Accel::build(ball.clone(), kind);
+        // Planes tell the first two apart, and not the others.
+        for away in [1e3, 1e6, 1e10, 1e12] {
+            let direction = numbers.direction().wide();
+            let (beside, _) = direction.orthonormal_basis();
+            let origin = Point3::new(0.0, 0.0, 0.0) + beside * 4.0 - direction * away;
+            let mut statistics = Statistics::default();
+            let counted = Some(&mut statistics);
+            let mut accept = |_: &_| AnyHit::Accept;
+            let ray = Ray::new(origin, direction);
+            let found = accel.search(&ray, EdgeRule::Closed, counted, &mut accept);
+            assert_eq!(found, None);
+            assert_eq!(statistics.tests_made, 0, "{kind} from {away}");
+        }
+    }
+}

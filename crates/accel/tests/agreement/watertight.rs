@@ -155,3 +155,21 @@ fn a_sliver_is_hit_as_well_as_any_triangle_by_every_test() {
         }
     }
 }
+
+#[test]
+fn a_flat_face_is_hit_from_where_double_precision_is_blunter_than_the_pad() {
+    let mut numbers = Numbers::new(34);
+    for &kind in StructureKind::ALL {
+        let cube = Accel::build(meshes::geometry(meshes::cuboid(0.5)), kind);
+        for away in [1e10, 1e11, 1e12, 1e13] {
+            for _ in 0..100 {
+                let target = numbers.point(0.3).wide();
+                let towards = numbers.direction().wide();
+                let ray = Ray::new(target - towards * away, towards);
+                let mut accept = |_: &_| AnyHit::Accept;
+                let found = cube.search(&ray, EdgeRule::Closed, None, &mut accept);
+                assert!(found.is_some(), "{kind} from {away}: {ray:?}");
+            }
+        }
+    }
+}

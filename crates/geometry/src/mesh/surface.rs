@@ -16,20 +16,18 @@ impl TriangleMesh {
         Some(self.cross(triangle).normalized()?.to_normal())
     }
 
-    /// The unit normal that shading uses at barycentric weights (u, v) of the second and third
-    /// corner: the vertex normals interpolated, or the geometric normal where the mesh has none or
-    /// they cancel. `None` for a triangle without area and without normals.
+    /// The vertex normals interpolated at barycentric weights (u, v) of the second and third corner,
+    /// of any length; `None` if the mesh has none or where they cancel.
     ///
     /// # Panics
     /// When there is no such triangle.
     #[must_use]
-    pub fn shading_normal(&self, triangle: usize, u: f64, v: f64) -> Option<Normal3<f64>> {
-        let interpolated = self.normals().and_then(|normals| {
-            let corners = self.triangles()[triangle].map(|i| normals[i as usize].wide());
-            let [a, b, c] = corners;
-            (a * (1.0 - u - v) + b * u + c * v).normalized()
-        });
-        interpolated.or_else(|| self.geometric_normal(triangle))
+    #[inline]
+    pub fn interpolated_normal(&self, triangle: usize, u: f32, v: f32) -> Option<Normal3> {
+        let normals = self.normals()?;
+        let [a, b, c] = self.triangles()[triangle].map(|i| normals[i as usize]);
+        let blended = a * (1.0 - u - v) + b * u + c * v;
+        (blended.wide().length() > 0.0).then_some(blended)
     }
 
     /// The texture coordinates at barycentric weights (u, v) of the second and third corner; `None`
@@ -38,6 +36,7 @@ impl TriangleMesh {
     /// # Panics
     /// When there is no such triangle.
     #[must_use]
+    #[inline]
     pub fn uv_at(&self, triangle: usize, u: f32, v: f32) -> Option<[f32; 2]> {
         let uvs = self.uvs()?;
         let [a, b, c] = self.triangles()[triangle].map(|i| uvs[i as usize]);
@@ -165,7 +164,6 @@ mod tests {
         assert_eq!(normals[0], Normal3::new(0.0, 0.0, 1.0));
         assert_eq!(normals[5], Normal3::default());
         assert_eq!(mesh.geometric_normal(1), None);
-        assert_eq!(mesh.shading_normal(1, 0.2, 0.2), None);
     }
 
     #[test]
@@ -200,15 +198,17 @@ mod tests {
     }
 
     #[test]
-    fn shading_normals_are_interpolated_or_geometric() {
+    fn normals_are_interpolated_unless_they_cancel() {
         let cube = unit_cube();
-        let flat = cube.shading_normal(0, 0.3, 0.3);
-        assert_eq!(flat, cube.geometric_normal(0));
-        let smooth = cube.with_smooth_normals();
+        assert_eq!(cube.interpolated_normal(0, 0.3, 0.3), None);
+        let smooth = cube.clone().with_smooth_normals();
         let corner = smooth.triangles()[0][1] as usize;
-        let expected = smooth.normals().unwrap()[corner].wide();
-        let found = smooth.shading_normal(0, 1.0, 0.0).unwrap();
-        assert!((found - expected).length() < 1e-6);
+        let expected = smooth.normals().unwrap()[corner];
+        assert_eq!(smooth.interpolated_normal(0, 1.0, 0.0), Some(expected));
+        let mut opposite = vec![Normal3::new(0.0, 0.0, 1.0); 8];
+        opposite[corner].z = -1.0;
+        let cancelling = cube.with_normals(opposite).unwrap();
+        assert_eq!(cancelling.interpolated_normal(0, 0.5, 0.0), None);
     }
 
     #[test]
