@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use ombra_accel::{Geometry, Mesh};
-use ombra_formats::scene::{Assets, Picture, SceneFile, parse_scene, read_scene, with_normals};
-use ombra_formats::{FormatError, Limits, Model, read_model, sha256};
+use ombra_formats::scene::{Assets, Picture, SceneFile, parse_scene, read_scene};
+use ombra_formats::{FormatError, Limits, Model, read_model, sha256, with_normals};
 use ombra_geometry::triangle::TriangleTest;
 use ombra_geometry::{Transform, Vector3};
 use ombra_scene::{MaterialId, Scene};

@@ -20,7 +20,7 @@ use crate::finding::Finding;
 use crate::limits::Limits;
 use crate::source::Source;
 
-pub use normals::smooth_normals;
+pub use normals::with_normals;
 pub(crate) use polygon::MOST_CLIPPED_CORNERS;
 pub(crate) use reference::resolve;
 
@@ -48,7 +48,7 @@ pub struct Part {
     /// The material's name.
     pub name: String,
     /// The triangles. Has normals only if the file gives them, by normals or smoothing groups;
-    /// see [`smooth_normals`] for those that do not.
+    /// see [`with_normals`] for those that do not.
     pub mesh: TriangleMesh,
     /// Which of the model's materials it has.
     pub material: usize,

@@ -22,7 +22,6 @@ use crate::finding::Finding;
 use crate::limits::Limits;
 
 pub use assets::Assets;
-pub use build::with_normals;
 pub use picture::Picture;
 
 /// What a scene file holds.
