@@ -9,7 +9,7 @@ mod polygon;
 mod reference;
 mod stl;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ombra_geometry::{Aabb, TriangleMesh};
 use ombra_scene::Material;
@@ -35,6 +35,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// What its user should hear of.
     pub findings: Vec<Finding>,
+    /// The files that were read for it, its own first; none for a model in memory.
+    pub files: Vec<PathBuf>,
     /// How many vertices the file defines. The parts have more where normals or texture
     /// coordinates split them, and fewer where no triangle uses them.
     pub vertices: u64,
@@ -133,6 +135,7 @@ impl Model {
             parts,
             materials: vec![material],
             findings,
+            files: Vec::new(),
             vertices,
             degenerate_triangles: mended.degenerate,
         })
@@ -151,9 +154,11 @@ impl Model {
 /// listed in [`Model::findings`].
 pub fn read_model(path: impl AsRef<Path>, limits: &Limits) -> Result<Model, FormatError> {
     let path = path.as_ref();
-    Source::open(path, limits)
+    let mut model = Source::open(path, limits)
         .and_then(|source| read(source, path, limits))
-        .map_err(|e| e.in_file(path))
+        .map_err(|e| e.in_file(path))?;
+    model.files.insert(0, path.to_owned());
+    Ok(model)
 }
 
 /// Reads a model that is in memory; the ending of its name says what it is, as in [`read_model`]. It
@@ -161,7 +166,7 @@ pub fn read_model(path: impl AsRef<Path>, limits: &Limits) -> Result<Model, Form
 ///
 /// # Errors
 /// As those of [`read_model`].
-pub fn read_model_bytes(
+pub(crate) fn read_model_bytes(
     name: impl AsRef<Path>,
     bytes: &[u8],
     limits: &Limits,

@@ -54,7 +54,7 @@ pub(super) fn build(
 ) -> Result<SceneFile, FormatError> {
     let mut builder = Builder {
         text,
-        loader: Loader::new(assets, limits),
+        loader: Loader::new(text, assets, limits),
         test,
         scene: Scene::default(),
         named: BTreeMap::new(),
@@ -79,6 +79,7 @@ pub(super) fn build(
         scene: builder.scene,
         picture: picture(&description.picture, text)?,
         findings: builder.findings,
+        hash: builder.loader.hash(),
     })
 }
 
