@@ -41,4 +41,4 @@ pub use image::{
 };
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;
-pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, smooth_normals};
+pub use mesh::{Model, ModelFormat, Part, read_model, with_normals};

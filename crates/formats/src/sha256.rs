@@ -2,53 +2,73 @@
 
 use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use crate::error::{Fault, FormatError};
-
-/// The SHA-256 of some bytes, in hexadecimal.
-#[must_use]
-pub fn of_bytes(bytes: &[u8]) -> String {
-    hexadecimal(Sha256::new_with_prefix(bytes))
-}
 
 /// The SHA-256 of what a file holds, in hexadecimal.
 ///
 /// # Errors
 /// When the file cannot be read.
 pub fn of_file(path: impl AsRef<Path>) -> Result<String, FormatError> {
-    let path = path.as_ref();
-    let mut hasher = Hasher(Sha256::new());
-    let copied = File::open(path).and_then(|mut file| io::copy(&mut file, &mut hasher));
-    copied.map_err(|source| {
-        let action = "be read";
-        FormatError::file(Fault::Io { action, source }).in_file(path)
-    })?;
-    Ok(hexadecimal(hasher.0))
+    of_files(&[path.as_ref().to_owned()])
 }
 
-/// Takes what is written to it into the hash.
-struct Hasher(Sha256);
+/// The SHA-256 of what some files hold, one after the other, in hexadecimal.
+///
+/// # Errors
+/// When a file cannot be read.
+pub fn of_files(paths: &[PathBuf]) -> Result<String, FormatError> {
+    let mut content = Content::default();
+    content.take_files(paths)?;
+    Ok(content.hexadecimal())
+}
 
-impl io::Write for Hasher {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+/// The SHA-256 of some bytes, in hexadecimal.
+#[must_use]
+pub fn of_bytes(bytes: &[u8]) -> String {
+    let mut content = Content::default();
+    content.take(bytes);
+    content.hexadecimal()
+}
+
+/// What has been read so far.
+#[derive(Default)]
+pub(crate) struct Content(Sha256);
+
+impl Content {
+    pub(crate) fn take(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
+    }
+
+    pub(crate) fn take_files(&mut self, paths: &[PathBuf]) -> Result<(), FormatError> {
+        for path in paths {
+            let copied = File::open(path).and_then(|mut file| io::copy(&mut file, self));
+            copied.map_err(|source| {
+                let action = "be read";
+                FormatError::file(Fault::Io { action, source }).in_file(path)
+            })?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn hexadecimal(self) -> String {
+        let bytes = self.0.finalize();
+        bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl io::Write for Content {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.take(bytes);
         Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
-}
-
-fn hexadecimal(hasher: Sha256) -> String {
-    hasher
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
 }
 
 #[cfg(test)]

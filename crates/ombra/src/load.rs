@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use ombra_accel::{Geometry, Mesh};
-use ombra_formats::scene::{Assets, Picture, SceneFile, parse_scene, read_scene, with_normals};
-use ombra_formats::{FormatError, Limits, Model, read_model, sha256};
+use ombra_formats::scene::{Assets, Picture, SceneFile, parse_scene, read_scene};
+use ombra_formats::{FormatError, Limits, Model, read_model, sha256, with_normals};
 use ombra_geometry::triangle::TriangleTest;
 use ombra_geometry::{Transform, Vector3};
 use ombra_scene::{MaterialId, Scene};
@@ -33,7 +33,8 @@ pub struct Loaded {
     pub picture: Picture,
     /// What its user should hear of, one line each.
     pub findings: Vec<String>,
-    /// SHA-256 over the scene's file, in hexadecimal: the same scene gives the same.
+    /// SHA-256, in hexadecimal, over the scene's file and all that it refers to: the same scene gives
+    /// the same, and a change to any of the files another.
     pub hash: String,
 }
 
@@ -91,10 +92,11 @@ pub fn load(name: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     let mut loaded = if is_scene {
         let file = read_scene(path, options.triangle_test, &options.limits)?;
-        of_scene(file, sha256::of_file(path)?)
+        of_scene(file)
     } else {
         let model = read_model(path, &options.limits)?;
-        of_model(model, options, sha256::of_file(path)?)?
+        let hash = sha256::of_files(&model.files)?;
+        of_model(model, options, hash)?
     };
     defaults::light(&mut loaded.scene);
     Ok(loaded)
@@ -103,16 +105,16 @@ pub fn load(name: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
 fn of_builtin(scene: &Builtin, options: &LoadOptions) -> Result<Loaded, FormatError> {
     let assets = Assets::Embedded(builtin::ASSETS);
     let file = parse_scene(scene.text, &assets, options.triangle_test, &options.limits)?;
-    Ok(of_scene(file, sha256::of_bytes(scene.text.as_bytes())))
+    Ok(of_scene(file))
 }
 
-fn of_scene(file: SceneFile, hash: String) -> Loaded {
+fn of_scene(file: SceneFile) -> Loaded {
     let findings = file.findings.iter().map(ToString::to_string).collect();
     Loaded {
         scene: file.scene,
         picture: file.picture,
         findings,
-        hash,
+        hash: file.hash,
     }
 }
 

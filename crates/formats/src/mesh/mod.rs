@@ -9,7 +9,7 @@ mod polygon;
 mod reference;
 mod stl;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ombra_geometry::{Aabb, TriangleMesh};
 use ombra_scene::Material;
@@ -20,7 +20,7 @@ use crate::finding::Finding;
 use crate::limits::Limits;
 use crate::source::Source;
 
-pub use normals::smooth_normals;
+pub use normals::with_normals;
 pub(crate) use polygon::MOST_CLIPPED_CORNERS;
 pub(crate) use reference::resolve;
 
@@ -35,6 +35,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// What its user should hear of.
     pub findings: Vec<Finding>,
+    /// The files that were read for it, its own first; none for a model in memory.
+    pub files: Vec<PathBuf>,
     /// How many vertices the file defines. The parts have more where normals or texture
     /// coordinates split them, and fewer where no triangle uses them.
     pub vertices: u64,
@@ -48,7 +50,7 @@ pub struct Part {
     /// The material's name.
     pub name: String,
     /// The triangles. Has normals only if the file gives them, by normals or smoothing groups;
-    /// see [`smooth_normals`] for those that do not.
+    /// see [`with_normals`] for those that do not.
     pub mesh: TriangleMesh,
     /// Which of the model's materials it has.
     pub material: usize,
@@ -133,6 +135,7 @@ impl Model {
             parts,
             materials: vec![material],
             findings,
+            files: Vec::new(),
             vertices,
             degenerate_triangles: mended.degenerate,
         })
@@ -151,9 +154,11 @@ impl Model {
 /// listed in [`Model::findings`].
 pub fn read_model(path: impl AsRef<Path>, limits: &Limits) -> Result<Model, FormatError> {
     let path = path.as_ref();
-    Source::open(path, limits)
+    let mut model = Source::open(path, limits)
         .and_then(|source| read(source, path, limits))
-        .map_err(|e| e.in_file(path))
+        .map_err(|e| e.in_file(path))?;
+    model.files.insert(0, path.to_owned());
+    Ok(model)
 }
 
 /// Reads a model that is in memory; the ending of its name says what it is, as in [`read_model`]. It
@@ -161,7 +166,7 @@ pub fn read_model(path: impl AsRef<Path>, limits: &Limits) -> Result<Model, Form
 ///
 /// # Errors
 /// As those of [`read_model`].
-pub fn read_model_bytes(
+pub(crate) fn read_model_bytes(
     name: impl AsRef<Path>,
     bytes: &[u8],
     limits: &Limits,

@@ -8,7 +8,6 @@ use std::collections::HashMap;
 use ombra_geometry::Point3;
 
 use super::finish::Raw;
-use super::normals::position_key;
 use super::{Model, ModelFormat};
 use crate::error::{Fault, FormatError, Place, quoted};
 use crate::finding::Finding;
@@ -59,7 +58,9 @@ struct Soup {
 impl Soup {
     fn vertex(&mut self, p: Point3) -> u32 {
         let Soup { raw, vertices } = self;
-        *vertices.entry(position_key(p)).or_insert_with(|| {
+        // Adding 0 makes −0 and 0 the same.
+        let key = p.to_array().map(|x| (x + 0.0).to_bits());
+        *vertices.entry(key).or_insert_with(|| {
             raw.positions.push(p);
             (raw.positions.len() - 1) as u32
         })

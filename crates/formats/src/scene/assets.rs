@@ -12,6 +12,7 @@ use crate::finding::Finding;
 use crate::image::read_texture;
 use crate::limits::{Limits, take_pixels};
 use crate::mesh::{Model, read_model, read_model_bytes, resolve};
+use crate::sha256::Content;
 
 /// Where the files are that a scene file refers to.
 #[derive(Clone, Debug)]
@@ -28,14 +29,19 @@ pub(super) struct Loader<'a> {
     /// What is left of it for textures.
     limits: Limits,
     images: HashMap<PathBuf, Arc<Image>>,
+    content: Content,
 }
 
 impl<'a> Loader<'a> {
-    pub(super) fn new(assets: &'a Assets<'a>, limits: &Limits) -> Self {
+    /// A loader for what a scene file of this text refers to.
+    pub(super) fn new(text: &str, assets: &'a Assets<'a>, limits: &Limits) -> Self {
+        let mut content = Content::default();
+        content.take(text.as_bytes());
         Self {
             assets,
             limits: limits.clone(),
             images: HashMap::new(),
+            content,
         }
     }
 
@@ -45,9 +51,11 @@ impl<'a> Loader<'a> {
             Assets::Embedded(files) => {
                 let file = files.iter().find(|(known, _)| *known == name);
                 let (_, bytes) = file.ok_or_else(|| missing(name, "model"))?;
+                self.content.take(bytes);
                 read_model_bytes(Path::new(name), bytes, &self.limits)?
             }
         };
+        self.content.take_files(&model.files)?;
         let mut counted = Vec::new();
         for material in &model.materials {
             if let Texture::Image(image) = &material.diffuse {
@@ -59,6 +67,11 @@ impl<'a> Loader<'a> {
             }
         }
         Ok(model)
+    }
+
+    /// The SHA-256 of the scene file and all that was read after it.
+    pub(super) fn hash(self) -> String {
+        self.content.hexadecimal()
     }
 
     /// A texture; each file is read once.
@@ -74,6 +87,7 @@ impl<'a> Loader<'a> {
         let image = Arc::new(read_texture(&path, &self.limits)?);
         take_pixels(&mut self.limits, image.width(), image.height())
             .map_err(|e| e.in_file(&path))?;
+        self.content.take_files(std::slice::from_ref(&path))?;
         self.images.insert(path, Arc::clone(&image));
         Ok(image)
     }

@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use ombra_accel::{Geometry, Mesh, Shapes};
 use ombra_geometry::triangle::TriangleTest;
-use ombra_geometry::{Angle, GeometryId, Object, Point3, Transform, TriangleMesh, Vector3, World};
+use ombra_geometry::{Angle, GeometryId, Object, Point3, Transform, Vector3, World};
 use ombra_scene::camera::{Orthographic, Panorama, Perspective, Pose, Projection, ThinLens};
 use ombra_scene::light::Falloff;
 use ombra_scene::{Camera, Light, Material, MaterialId, Rgb, Scene, Texture};
@@ -22,10 +22,7 @@ use super::{Assets, SceneFile, line_of};
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
 use crate::limits::Limits;
-use crate::mesh::smooth_normals;
-
-/// Where two triangles of a mesh without normals meet at less than this, the edge looks smooth.
-const CREASE: Angle = Angle::from_degrees(35.0);
+use crate::mesh::with_normals;
 
 /// A model whose geometries are in the scene, wherever objects place them.
 struct LoadedModel {
@@ -57,7 +54,7 @@ pub(super) fn build(
 ) -> Result<SceneFile, FormatError> {
     let mut builder = Builder {
         text,
-        loader: Loader::new(assets, limits),
+        loader: Loader::new(text, assets, limits),
         test,
         scene: Scene::default(),
         named: BTreeMap::new(),
@@ -82,6 +79,7 @@ pub(super) fn build(
         scene: builder.scene,
         picture: picture(&description.picture, text)?,
         findings: builder.findings,
+        hash: builder.loader.hash(),
     })
 }
 
@@ -300,17 +298,6 @@ impl Builder<'_> {
     fn default_material(&mut self) -> MaterialId {
         self.scene.materials.push(Material::default());
         MaterialId(self.scene.materials.len() as u32 - 1)
-    }
-}
-
-/// The same mesh with normals, if it has none: smooth where its triangles meet at less than 35°.
-///
-/// # Errors
-/// When splitting vertices at sharp edges gives more of them than a mesh can index.
-pub fn with_normals(mesh: TriangleMesh) -> Result<TriangleMesh, FormatError> {
-    match mesh.normals() {
-        Some(_) => Ok(mesh),
-        None => smooth_normals(&mesh, CREASE).map_err(FormatError::file),
     }
 }
 

@@ -22,7 +22,6 @@ use crate::finding::Finding;
 use crate::limits::Limits;
 
 pub use assets::Assets;
-pub use build::with_normals;
 pub use picture::Picture;
 
 /// What a scene file holds.
@@ -34,6 +33,9 @@ pub struct SceneFile {
     pub picture: Picture,
     /// What its user should hear of.
     pub findings: Vec<Finding>,
+    /// SHA-256, in hexadecimal, over the scene file and then the files that it refers to, each once,
+    /// in the order in which they are read. It changes when any of them does.
+    pub hash: String,
 }
 
 /// The longest scene file, in bytes: they are written by hand.

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use ombra_formats::{FileInfo, Limits, inspect, read_image, read_model, smooth_normals};
+use ombra_formats::{FileInfo, Limits, inspect, read_image, read_model};
 use ombra_geometry::Angle;
+use ombra_geometry::mesh::smooth_normals;
 
 use super::outside_data;
 

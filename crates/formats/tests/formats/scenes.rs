@@ -152,3 +152,31 @@ fn an_endless_scene_file_is_refused() {
         "/dev/zero: scene file exceeds the limit of 16777216 bytes"
     );
 }
+
+#[test]
+fn the_hash_tells_a_change_in_any_file() {
+    let folder = folder_with_texture();
+    let library = b"newmtl m\nmap_Kd wood.png\n";
+    let model = [b"mtllib t.mtl\nusemtl m\n", TRIANGLE].concat();
+    std::fs::write(folder.path("t.mtl"), library).unwrap();
+    std::fs::write(folder.path("t.obj"), &model).unwrap();
+    let text = "[[objects]]\nmesh.file = \"t.obj\"\n";
+    let hash = || {
+        let file = try_scene(&folder, text, &Limits::default());
+        file.unwrap().hash
+    };
+    let before = hash();
+    assert_eq!(before, hash());
+    let image = std::fs::read(folder.path("wood.png")).unwrap();
+    let all = [text.as_bytes(), &model, library, &image].concat();
+    assert_eq!(before, ombra_formats::sha256::of_bytes(&all));
+    for file in ["t.obj", "t.mtl"] {
+        let content = std::fs::read(folder.path(file)).unwrap();
+        std::fs::write(folder.path(file), [&content[..], b"# more\n"].concat()).unwrap();
+        assert_ne!(before, hash(), "{file}");
+        std::fs::write(folder.path(file), content).unwrap();
+    }
+    let image = ImageBuffer::new(2, 2, vec![Rgb::BLACK; 4]).unwrap();
+    write_image(folder.path("wood.png"), &image, &Metadata::default()).unwrap();
+    assert_ne!(before, hash());
+}

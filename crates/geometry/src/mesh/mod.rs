@@ -1,9 +1,12 @@
 //! Triangles that share their vertices.
 
 pub mod generate;
+mod smooth;
 mod surface;
 
 use crate::{Aabb, Normal3, Point3};
+
+pub use smooth::smooth_normals;
 
 /// An indexed triangle mesh.
 ///

@@ -73,41 +73,6 @@ impl TriangleMesh {
             .count()
     }
 
-    /// Vertex normals that make the surface look smooth: at each vertex the normals of the triangles
-    /// that meet there, weighted by their angle there, so that it does not matter how a flat part is
-    /// cut into triangles (Thürmer, Wüthrich, "Computing Vertex Normals from Polygonal Facets",
-    /// Journal of Graphics Tools 3(1), 1998). Zero where no triangle with area meets.
-    ///
-    /// Vertices are smoothed over where triangles share them by index: two vertices in one place
-    /// make a crease.
-    #[must_use]
-    pub fn smooth_normals(&self) -> Vec<Normal3> {
-        let mut sums = vec![Vector3::new(0.0_f64, 0.0, 0.0); self.positions().len()];
-        for (i, indices) in self.triangles().iter().enumerate() {
-            let Some(normal) = self.geometric_normal(i) else {
-                continue;
-            };
-            let corners = self.corners(i).map(Point3::wide);
-            for k in 0..3 {
-                let here = corners[k];
-                let (next, last) = (corners[(k + 1) % 3] - here, corners[(k + 2) % 3] - here);
-                let angle = next.cross(last).length().atan2(next.dot(last));
-                sums[indices[k] as usize] += normal.to_vector() * angle;
-            }
-        }
-        let unit = |sum: Vector3<f64>| sum.normalized().map(|n| n.to_normal().cast());
-        sums.into_iter()
-            .map(|sum| unit(sum).unwrap_or_default())
-            .collect()
-    }
-
-    /// The same mesh with [smooth normals](Self::smooth_normals) in place of those that it had.
-    #[must_use]
-    pub fn with_smooth_normals(self) -> Self {
-        let normals = Some(self.smooth_normals());
-        Self { normals, ..self }
-    }
-
     /// Whether the mesh is closed: each edge of a triangle is, by index, the edge of exactly one
     /// other one that runs through it the opposite way. A mesh of nothing is closed.
     #[must_use]
@@ -132,8 +97,10 @@ impl TriangleMesh {
 
 #[cfg(test)]
 mod tests {
-    use crate::mesh::generate::{cuboid, icosphere};
-    use crate::{Aabb, Normal3, Point3, TriangleMesh};
+    use crate::Normal3;
+    use crate::mesh::generate::cuboid;
+    use crate::mesh::smooth_normals;
+    use crate::{Aabb, Angle, Point3, TriangleMesh};
 
     fn unit_cube() -> TriangleMesh {
         cuboid(&Aabb::around([
@@ -157,12 +124,9 @@ mod tests {
     }
 
     #[test]
-    fn triangles_without_area_are_counted_and_change_no_normal() {
+    fn triangles_without_area_are_counted_and_have_no_normal() {
         let mesh = ragged();
         assert_eq!(mesh.degenerate_triangles(), 3);
-        let normals = mesh.smooth_normals();
-        assert_eq!(normals[0], Normal3::new(0.0, 0.0, 1.0));
-        assert_eq!(normals[5], Normal3::default());
         assert_eq!(mesh.geometric_normal(1), None);
     }
 
@@ -178,30 +142,10 @@ mod tests {
     }
 
     #[test]
-    fn smooth_normals_of_a_ball_point_outward() {
-        let centre = Point3::new(3.0, -1.0, 2.0);
-        let ball = icosphere(2, centre, 2.0);
-        for (position, normal) in ball.positions().iter().zip(ball.smooth_normals()) {
-            let outward = (*position - centre).normalized().unwrap();
-            assert!(normal.dot(outward) > 0.9999, "{normal:?} at {position:?}");
-        }
-    }
-
-    #[test]
-    fn smooth_normals_do_not_depend_on_the_cut_of_a_flat_part() {
-        for normal in unit_cube().smooth_normals() {
-            let third = 1.0 / 3.0_f32.sqrt();
-            for component in normal.to_array() {
-                assert!((component.abs() - third).abs() < 1e-6, "{normal:?}");
-            }
-        }
-    }
-
-    #[test]
     fn normals_are_interpolated_unless_they_cancel() {
         let cube = unit_cube();
         assert_eq!(cube.interpolated_normal(0, 0.3, 0.3), None);
-        let smooth = cube.clone().with_smooth_normals();
+        let smooth = smooth_normals(&cube, Angle::from_degrees(180.0)).unwrap();
         let corner = smooth.triangles()[0][1] as usize;
         let expected = smooth.normals().unwrap()[corner];
         assert_eq!(smooth.interpolated_normal(0, 1.0, 0.0), Some(expected));

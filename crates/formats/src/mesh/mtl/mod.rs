@@ -27,6 +27,8 @@ pub(super) struct Library {
     folder: PathBuf,
     definitions: HashMap<String, Definition>,
     images: HashMap<PathBuf, Arc<Image>>,
+    /// What was read.
+    files: Vec<PathBuf>,
     /// What is left of it for textures.
     limits: Limits,
 }
@@ -45,6 +47,7 @@ impl Library {
             folder: folder.to_owned(),
             definitions: HashMap::new(),
             images: HashMap::new(),
+            files: Vec::new(),
             limits: limits.clone(),
         };
         let mut seen = HashSet::new();
@@ -72,6 +75,7 @@ impl Library {
         name: &str,
         findings: &mut Vec<Finding>,
     ) -> Result<(), FormatError> {
+        self.files.push(path.to_owned());
         Source::open(path, &self.limits)
             .and_then(|mut source| self.read(&mut source, name, findings))
             .map_err(|e| e.in_file(path))
@@ -158,6 +162,11 @@ impl Library {
         Ok(material)
     }
 
+    /// The materials files and textures that were read, in order.
+    pub(super) fn into_files(self) -> Vec<PathBuf> {
+        self.files
+    }
+
     fn image(&mut self, path: &Path) -> Result<Arc<Image>, FormatError> {
         if let Some(image) = self.images.get(path) {
             return Ok(Arc::clone(image));
@@ -165,6 +174,7 @@ impl Library {
         let image = read_texture(path, &self.limits)?;
         self.account(&image).map_err(|e| e.in_file(path))?;
         let image = Arc::new(image);
+        self.files.push(path.to_owned());
         self.images.insert(path.to_owned(), Arc::clone(&image));
         Ok(image)
     }

@@ -79,6 +79,7 @@ pub(super) fn model(
         parts,
         materials,
         findings,
+        files: library.into_files(),
         vertices,
         degenerate_triangles: mended.degenerate,
     })
