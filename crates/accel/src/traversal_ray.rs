@@ -117,8 +117,6 @@ pub struct TraversalRay {
     pub ray: Ray<f64>,
     /// One over each component of the direction; ±∞ where that is 0.
     pub inverse_direction: Vector3<f64>,
-    /// Whether tests of primitives may use single precision.
-    pub single: bool,
     /// A hit counts if its point lies within its primitive's box padded by this.
     pub hit_pad: f64,
     /// Where structures that test boxes start from: the ray's origin or, if that is far away, the
@@ -130,6 +128,9 @@ pub struct TraversalRay {
     pub box_pad: f64,
     /// By how much one that does so in single precision pads them.
     pub single_box_pad: f64,
+    /// From the origin to the farthest corner of the structure.
+    farthest: f64,
+    reach: Reach,
 }
 
 impl TraversalRay {
@@ -154,13 +155,22 @@ impl TraversalRay {
         Some(Self {
             ray: *ray,
             inverse_direction: Vector3::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z),
-            single: reach.single(ray, farthest),
             hit_pad,
             box_origin,
             box_start,
             box_pad,
             single_box_pad: box_pad + HIT_PAD * (from_there + box_pad),
+            farthest,
+            reach: *reach,
         })
+    }
+
+    /// Whether tests of primitives may use single precision. Worked out here and not for every ray,
+    /// since shapes and instances do not ask.
+    #[must_use]
+    #[inline]
+    pub fn single(&self) -> bool {
+        self.reach.single(&self.ray, self.farthest)
     }
 
     /// The part of the ray up to `t_max` within a box that is padded by `box_pad`, its t counted
@@ -219,7 +229,7 @@ mod tests {
         let unit = Aabb::around([Point3::ORIGIN, Point3::new(1.0, 1.0, 1.0)]);
         let ray = |x: f64| Ray::new(Point3::new(x, 0.0, 0.0), Vector3::new(-1.0, 0.0, 0.0));
         let single =
-            |ray: &Ray<f64>, b: &Aabb| TraversalRay::new(ray, &Reach::of(b)).unwrap().single;
+            |ray: &Ray<f64>, b: &Aabb| TraversalRay::new(ray, &Reach::of(b)).unwrap().single();
         assert!(single(&ray(2.0), &unit));
         assert!(!single(&ray(1e3), &unit));
         let tiny = Aabb::around([Point3::ORIGIN, Point3::new(1e-12, 0.0, 0.0)]);

@@ -53,7 +53,7 @@ impl Primitives for Mesh {
 
     #[inline]
     fn prepare(&self, ray: &TraversalRay, rule: EdgeRule) -> Self::Prepared {
-        self.test.prepare(&ray.ray, ray.single, rule)
+        self.test.prepare(&ray.ray, ray.single(), rule)
     }
 
     #[inline]

@@ -10,7 +10,7 @@ use anyhow::{Context as _, bail};
 use clap::Parser as _;
 use ombra::accel::Traversable as _;
 use ombra::formats::scene::Picture;
-use ombra::formats::{ImageBuffer, ImageFormat, Metadata, OutputFile};
+use ombra::formats::{ImageBuffer, ImageFormat, Metadata, OutputFile, write_image};
 use ombra::geometry::Vector3;
 use ombra::pipeline::Cpu;
 use ombra::render::{Rendering, Settings, Watch};
@@ -102,8 +102,9 @@ pub(crate) fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     if let Some(alias) = args.accel.alias {
         talk.say(&alias.to_string());
     }
-    // What would fail in the end fails at once.
-    let output = OutputFile::create(&args.output)?;
+    // What would fail in the end fails at once. The file is begun again when there is a picture, so
+    // that nothing lies about if this is killed before.
+    let format = OutputFile::create(&args.output)?.format();
     let cpu = Cpu::with_threads(args.threads as usize).context("cannot start the threads")?;
     let stop = interrupt::watch(args.quiet)?;
 
@@ -135,7 +136,7 @@ pub(crate) fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     if rendering.film.done() == 0.0 {
         return Ok(nothing_kept(&talk));
     }
-    write(output, &rendering, &settings, hash, seconds)?;
+    write(args, format, &rendering, &settings, hash, seconds)?;
 
     let statistics = Statistics {
         scene: &args.scene,
@@ -198,13 +199,14 @@ fn render(
 }
 
 fn write(
-    output: OutputFile,
+    args: &RenderArgs,
+    format: ImageFormat,
     rendering: &Rendering,
     settings: &Settings,
     scene_hash: String,
     seconds: Duration,
 ) -> anyhow::Result<()> {
-    let floats = matches!(output.format(), ImageFormat::Exr | ImageFormat::Pfm);
+    let floats = matches!(format, ImageFormat::Exr | ImageFormat::Pfm);
     let pixels = if floats {
         rendering.raw()
     } else {
@@ -213,7 +215,7 @@ fn write(
     let image = ImageBuffer::new(rendering.film.width(), rendering.film.height(), pixels)?;
     // Only EXR tells how it came about in full: the same picture is the same bytes in the others,
     // whatever the number of threads in the command and the seconds that it took.
-    let in_full = output.format() == ImageFormat::Exr;
+    let in_full = format == ImageFormat::Exr;
     let metadata = Metadata {
         command: in_full.then(command),
         version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -221,7 +223,7 @@ fn write(
         seed: Some(settings.seed),
         seconds: in_full.then_some(seconds.as_secs_f64()),
     };
-    output.finish(&image, &metadata)?;
+    write_image(&args.output, &image, &metadata)?;
     Ok(())
 }
 
