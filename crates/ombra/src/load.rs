@@ -15,8 +15,8 @@ use crate::defaults;
 /// How to take a scene or a model.
 #[derive(Clone, Debug, Default)]
 pub struct LoadOptions {
-    /// Which way a model's up is, of any length but 0; by default z for STL and y for the rest. A
-    /// scene file says so itself.
+    /// Which way is up where the camera is made to fit, of any length but 0; by default z for STL
+    /// models and y for the rest.
     pub up: Option<Vector3>,
     /// How rays are tested against the triangles of meshes.
     pub triangle_test: TriangleTest,
@@ -98,6 +98,9 @@ pub fn load(name: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
         let hash = sha256::of_files(&model.files)?;
         of_model(model, options, hash)?
     };
+    if let Some(up) = options.up {
+        loaded.scene.up = up;
+    }
     defaults::light(&mut loaded.scene);
     Ok(loaded)
 }
@@ -126,7 +129,7 @@ fn of_model(model: Model, options: &LoadOptions, hash: String) -> Result<Loaded,
         Vector3::Y
     };
     let mut scene = Scene {
-        up: options.up.unwrap_or(natural),
+        up: natural,
         ..Scene::default()
     };
     scene.background = ombra_scene::Rgb::new(0.62, 0.67, 0.74);

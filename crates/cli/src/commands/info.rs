@@ -4,11 +4,21 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
+use anyhow::bail;
 use ombra::formats::{FileInfo, Finding, ImageInfo, ModelInfo, SceneInfo, inspect};
 
 use crate::args::InfoArgs;
 
 pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
+    if !args.file.exists()
+        && let Some(scene) = args.file.to_str().and_then(ombra::builtin::find)
+    {
+        bail!(
+            "{} is a built-in scene, not a file: {}",
+            scene.name,
+            scene.line
+        );
+    }
     let info = inspect(&args.file)?;
     let text = if args.json {
         serde_json::to_string_pretty(&info)? + "\n"

@@ -118,6 +118,12 @@ pub(crate) fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     for finding in &findings {
         talk.say(&format!("{}: {finding}", args.scene));
     }
+    if scene.objects.is_empty() {
+        talk.say(&format!(
+            "{}: no objects; there is nothing to see",
+            args.scene
+        ));
+    }
     if args.up.is_some() && scene.camera.is_some() {
         talk.say("--up has no effect: the scene has a camera of its own");
     }

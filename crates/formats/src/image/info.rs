@@ -54,13 +54,9 @@ fn exr_info(path: &Path) -> Result<ImageInfo, FormatError> {
     };
     let attributes = header
         .all_named_attributes()
-        // The channels have their own place here.
-        .filter(|(_, value)| !matches!(value, AttributeValue::ChannelList(_)))
-        .map(|(name, value)| {
-            (
-                String::from_utf8_lossy(name).into_owned(),
-                one_line(&attribute(&value)),
-            )
+        .filter_map(|(name, value)| {
+            let name = String::from_utf8_lossy(name).into_owned();
+            Some((name, one_line(&attribute(&value)?)))
         })
         .collect();
     Ok(ImageInfo {
@@ -78,15 +74,16 @@ fn exr_info(path: &Path) -> Result<ImageInfo, FormatError> {
     })
 }
 
-fn attribute(value: &AttributeValue) -> String {
-    match value {
+/// An attribute in words; `None` for those about how the file is laid out.
+fn attribute(value: &AttributeValue) -> Option<String> {
+    Some(match value {
         AttributeValue::Text(text) => text.to_string(),
         AttributeValue::F64(x) => x.to_string(),
         AttributeValue::F32(x) => x.to_string(),
         AttributeValue::I32(x) => x.to_string(),
         AttributeValue::Compression(compression) => compression.to_string(),
-        other => format!("{other:?}"),
-    }
+        _ => return None,
+    })
 }
 
 fn netpbm_info(path: &Path) -> Result<ImageInfo, FormatError> {

@@ -247,10 +247,13 @@ impl Builder<'_> {
         let toward = match (spec.look_at, spec.direction) {
             (Some(target), None) => point("look_at", target)? - position,
             (None, Some(toward)) => direction("direction", toward)?,
-            _ => {
-                return Err(wrong(
-                    "the camera needs either look_at or direction".to_owned(),
-                ));
+            (Some(_), Some(_)) => {
+                let message = "the camera has look_at and direction; one of them is needed";
+                return Err(wrong(message.to_owned()));
+            }
+            (None, None) => {
+                let message = "the camera has neither look_at nor direction; one is needed";
+                return Err(wrong(message.to_owned()));
             }
         };
         let pose = Pose::new(position, toward, up).map_err(|e| wrong(e.to_string()))?;

@@ -149,6 +149,7 @@ mod tests {
         let corner = smooth.triangles()[0][1] as usize;
         let expected = smooth.normals().unwrap()[corner];
         assert_eq!(smooth.interpolated_normal(0, 1.0, 0.0), Some(expected));
+        let corner = cube.triangles()[0][1] as usize;
         let mut opposite = vec![Normal3::new(0.0, 0.0, 1.0); 8];
         opposite[corner].z = -1.0;
         let cancelling = cube.with_normals(opposite).unwrap();

@@ -96,7 +96,7 @@ impl Definition {
 
     /// The material after `illum`: 0 and 1 are diffuse, 2 adds Phong's highlight, 3 reflects by Ks,
     /// 4 is glass (refraction by Ni, with Fresnel's law), 5 a mirror with Fresnel's law,
-    /// 6 refraction by Ni without Fresnel's law and 7 with it; 8 is as 2, 9 as 4, 10 as 0. Without
+    /// 6 refraction by Ni without Fresnel's law (and what Tf leaves of Ks as a mirror) and 7 with it; 8 is as 2, 9 as 4, 10 as 0. Without
     /// `illum` a Ks makes it 2, and nothing makes it 1.
     ///
     /// Where the model is not transparent, `d` below 1 lets light through unbent.
@@ -129,7 +129,9 @@ impl Definition {
             shininess: self.shininess.map_or(plain.shininess, |ns| ns.max(1.0)),
             reflection: match model {
                 3 | 5 => mirrored,
-                4 | 6 | 7 | 9 => highlight,
+                // A surface cannot send on more light than it gets: through it goes first.
+                6 => at_most(highlight, Rgb::WHITE, through),
+                // With Fresnel's law what does not go through is the reflection.
                 _ => Rgb::BLACK,
             },
             transmission: if transparent {
@@ -146,6 +148,12 @@ impl Definition {
             emission: self.emission.unwrap_or(Rgb::BLACK),
         }
     }
+}
+
+/// A colour, but no more of each component than `whole` leaves beside `taken`.
+fn at_most(colour: Rgb, whole: Rgb, taken: Rgb) -> Rgb {
+    let [colour, whole, taken] = [colour, whole, taken].map(Rgb::to_array);
+    std::array::from_fn(|i| colour[i].min((whole[i] - taken[i]).max(0.0))).into()
 }
 
 /// A colour of one or three components; `None` for spectral files and CIE XYZ, which are not used.
