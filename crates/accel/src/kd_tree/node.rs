@@ -1,10 +1,12 @@
 //! The tree itself, and the way down in it that all walks share.
 
+use std::ops::ControlFlow;
+
 use ombra_geometry::{Aabb, Axis};
 
 use super::build::{Branch, grow};
 use crate::cells::{CellRay, Root, padded};
-use crate::{Bounded, Reach, Visitor};
+use crate::{Bounded, Reach, Span, Visitor};
 
 /// The largest depth of a tree, and so of any stack.
 pub(super) const MAX_DEPTH: usize = 64;
@@ -116,8 +118,22 @@ impl KdTree {
 
     /// The primitives of a leaf.
     #[inline]
-    pub(super) fn list(&self, leaf: Leaf) -> &[u32] {
+    fn list(&self, leaf: Leaf) -> &[u32] {
         &self.references[leaf.first as usize..(leaf.first + leaf.count) as usize]
+    }
+
+    /// Shows the visitor what a leaf lists, if anything, for the part of the ray that lies in it.
+    #[inline]
+    pub(super) fn show<V: Visitor>(
+        &self,
+        leaf: Leaf,
+        span: Span,
+        visitor: &mut V,
+    ) -> ControlFlow<()> {
+        match self.list(leaf) {
+            [] => ControlFlow::Continue(()),
+            list => visitor.leaf(list, span),
+        }
     }
 
     /// From a node down to the leaf in which the ray is at `from`, and where it leaves that leaf

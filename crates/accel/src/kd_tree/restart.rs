@@ -32,10 +32,7 @@ impl Structure for KdRestart {
                 let mut from = ray.enter;
                 while from < ray.exit {
                     let (leaf, end) = tree.descend(ray, 0, from, ray.exit, visitor, |_| ());
-                    let list = tree.list(leaf);
-                    if !list.is_empty() {
-                        visitor.leaf(list, ray.span(from, end))?;
-                    }
+                    tree.show(leaf, ray.span(from, end), visitor)?;
                     if visitor.t_max() < end {
                         break;
                     }

@@ -90,10 +90,9 @@ impl Structure for KdRopes {
                     if rope == OUTSIDE {
                         end = f64::INFINITY;
                     }
-                    let list = tree.list(leaf);
                     // Planes met at the same t leave nothing between them.
-                    if from < end && !list.is_empty() {
-                        visitor.leaf(list, ray.span(from, end))?;
+                    if from < end {
+                        tree.show(leaf, ray.span(from, end), visitor)?;
                     }
                     if rope == OUTSIDE || visitor.t_max() < end {
                         return ControlFlow::Continue(());

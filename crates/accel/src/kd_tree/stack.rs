@@ -34,10 +34,7 @@ impl Structure for KdStack {
                 loop {
                     let (leaf, end) =
                         tree.descend(ray, node, from, to, visitor, |far| stack.push(far));
-                    let list = tree.list(leaf);
-                    if !list.is_empty() {
-                        visitor.leaf(list, ray.span(from, end))?;
-                    }
+                    tree.show(leaf, ray.span(from, end), visitor)?;
                     if visitor.t_max() < end {
                         return ControlFlow::Continue(());
                     }
