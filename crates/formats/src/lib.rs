@@ -21,6 +21,7 @@
 //! line or byte, what is wrong there and what would be right; what it can pass over is a
 //! [`Finding`].
 
+pub mod minray;
 pub mod scene;
 pub mod sha256;
 
