@@ -64,25 +64,67 @@ impl<'a> Exposure<'a> {
         Ok(())
     }
 
+    /// Which samples of each pixel are taken.
+    pub(crate) fn samples(&self) -> Range<u32> {
+        self.samples.clone()
+    }
+
+    /// Whether all samples lie in the middle of their pixel.
+    pub(crate) const fn is_centred(&self) -> bool {
+        self.centred
+    }
+
+    /// The same with all rays through the middle of the lens.
+    pub(crate) fn through_pinhole(self) -> Self {
+        Self {
+            has_lens: false,
+            ..self
+        }
+    }
+
+    /// Where in the picture a sample of a pixel is, in pixels from the upper left corner.
     #[inline]
-    fn ray(&self, [x, y]: [u32; 2], sample: &Sample) -> Ray {
-        let pair = |dimension| {
-            if self.centred {
-                [0.5; 2]
-            } else {
-                sample.pair(dimension)
-            }
-        };
-        let within = pair(Dimension::Pixel);
+    pub(crate) fn place(&self, pixel: [u32; 2], index: u32) -> [f64; 2] {
+        self.in_picture(pixel, &self.sample(pixel, index))
+            .map(f64::from)
+    }
+
+    /// The numbers of a sample of a pixel.
+    #[inline]
+    pub(crate) fn sample(&self, pixel: [u32; 2], index: u32) -> Sample {
+        Numbers::new(self.sampler, self.seed, pixel).sample(index)
+    }
+
+    /// The ray of a sample of a pixel.
+    #[inline]
+    pub(crate) fn ray_of(&self, pixel: [u32; 2], index: u32) -> Ray {
+        self.ray(pixel, &self.sample(pixel, index))
+    }
+
+    #[inline]
+    fn ray(&self, pixel: [u32; 2], sample: &Sample) -> Ray {
+        let [x, y] = self.in_picture(pixel, sample);
         let lens = if self.has_lens {
-            pair(Dimension::Lens)
+            self.pair(sample, Dimension::Lens)
         } else {
             [0.5; 2]
         };
-        let screen = [
-            (x as f32 + within[0]) / self.picture[0] as f32,
-            (y as f32 + within[1]) / self.picture[1] as f32,
-        ];
+        let screen = [x / self.picture[0] as f32, y / self.picture[1] as f32];
         self.camera.ray(self.aspect, CameraSample { screen, lens })
+    }
+
+    #[inline]
+    fn in_picture(&self, [x, y]: [u32; 2], sample: &Sample) -> [f32; 2] {
+        let within = self.pair(sample, Dimension::Pixel);
+        [x as f32 + within[0], y as f32 + within[1]]
+    }
+
+    #[inline]
+    fn pair(&self, sample: &Sample, dimension: Dimension) -> [f32; 2] {
+        if self.centred {
+            [0.5; 2]
+        } else {
+            sample.pair(dimension)
+        }
     }
 }

@@ -6,8 +6,8 @@ use ombra_scene::{Interaction, Light, Material, Rgb};
 
 use super::Whitted;
 use super::shadow::{Filter, Shadow};
-use super::side::Side;
 use crate::optics;
+use crate::shading::Side;
 
 impl Whitted<'_> {
     /// The ambient part, and of each light that is not in the shade the diffuse and the specular

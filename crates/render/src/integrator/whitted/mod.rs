@@ -2,7 +2,6 @@
 
 mod local;
 mod shadow;
-mod side;
 #[cfg(test)]
 mod tests;
 
@@ -13,8 +12,8 @@ use ombra_scene::{Interaction, Material, Rgb, World};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 use crate::optics;
+use crate::shading::Side;
 use shadow::{Filter, Shadow};
-use side::Side;
 
 /// trace(point, direction, step) of the lecture, after Whitted, "An Improved Illumination Model for
 /// Shaded Display", CACM 23(6), 1980:
