@@ -53,7 +53,7 @@ impl<'a> Exposure<'a> {
     ) -> Result<(), Exception> {
         let [x, y, _] = launch_index;
         let place = [self.crop.x0 + x, self.crop.y0 + y];
-        let numbers = Numbers::new(self.sampler, self.seed, place);
+        let numbers = self.numbers(place);
         let mut exposed = *pixel;
         for index in self.samples.clone() {
             let sample = numbers.sample(index);
@@ -82,49 +82,44 @@ impl<'a> Exposure<'a> {
         }
     }
 
-    /// Where in the picture a sample of a pixel is, in pixels from the upper left corner.
-    #[inline]
-    pub(crate) fn place(&self, pixel: [u32; 2], index: u32) -> [f64; 2] {
-        self.in_picture(pixel, &self.sample(pixel, index))
-            .map(f64::from)
-    }
-
     /// The numbers of a sample of a pixel.
     #[inline]
     pub(crate) fn sample(&self, pixel: [u32; 2], index: u32) -> Sample {
-        Numbers::new(self.sampler, self.seed, pixel).sample(index)
+        self.numbers(pixel).sample(index)
+    }
+
+    /// Where in the picture a sample of a pixel is, in pixels from the upper left corner.
+    #[inline]
+    pub(crate) fn place(pixel: [u32; 2], sample: &Sample) -> [f64; 2] {
+        in_picture(pixel, sample).map(f64::from)
+    }
+
+    #[inline]
+    fn numbers(&self, pixel: [u32; 2]) -> Numbers {
+        let numbers = Numbers::new(self.sampler, self.seed, pixel);
+        if self.centred {
+            numbers.centred()
+        } else {
+            numbers
+        }
     }
 
     /// The ray of a sample of a pixel.
     #[inline]
-    pub(crate) fn ray_of(&self, pixel: [u32; 2], index: u32) -> Ray {
-        self.ray(pixel, &self.sample(pixel, index))
-    }
-
-    #[inline]
-    fn ray(&self, pixel: [u32; 2], sample: &Sample) -> Ray {
-        let [x, y] = self.in_picture(pixel, sample);
+    pub(crate) fn ray(&self, pixel: [u32; 2], sample: &Sample) -> Ray {
+        let [x, y] = in_picture(pixel, sample);
         let lens = if self.has_lens {
-            self.pair(sample, Dimension::Lens)
+            sample.pair(Dimension::Lens)
         } else {
             [0.5; 2]
         };
         let screen = [x / self.picture[0] as f32, y / self.picture[1] as f32];
         self.camera.ray(self.aspect, CameraSample { screen, lens })
     }
+}
 
-    #[inline]
-    fn in_picture(&self, [x, y]: [u32; 2], sample: &Sample) -> [f32; 2] {
-        let within = self.pair(sample, Dimension::Pixel);
-        [x as f32 + within[0], y as f32 + within[1]]
-    }
-
-    #[inline]
-    fn pair(&self, sample: &Sample, dimension: Dimension) -> [f32; 2] {
-        if self.centred {
-            [0.5; 2]
-        } else {
-            sample.pair(dimension)
-        }
-    }
+#[inline]
+fn in_picture([x, y]: [u32; 2], sample: &Sample) -> [f32; 2] {
+    let [dx, dy] = sample.pair(Dimension::Pixel);
+    [x as f32 + dx, y as f32 + dy]
 }

@@ -7,6 +7,7 @@ use ombra_pipeline::{
 };
 use ombra_scene::{Camera, Rgb, World};
 
+use crate::compare::LocalLight;
 use crate::exposure::Exposure;
 use crate::film::{Crop, Film, Pixel};
 use crate::integrator::{AmbientOcclusion, Cost, Depth, Normals, Whitted};
@@ -148,7 +149,9 @@ pub fn render(
         camera,
         settings,
         cpu,
-        quantity: settings.integrator.quantity(world, camera),
+        quantity: settings
+            .integrator
+            .quantity(world, camera, settings.response),
     };
     match settings.integrator {
         IntegratorKind::Whitted => job.run(watch, |exposure| {
@@ -165,6 +168,27 @@ pub fn render(
             job.run(watch, |exposure| AmbientOcclusion::new(world, exposure))
         }
     }
+}
+
+/// Renders local shading of what rays meet: what [`IntegratorKind::Raster`] draws, the other way.
+pub(crate) fn render_local(
+    world: &World,
+    camera: &Camera,
+    settings: &Settings,
+    cpu: &Cpu,
+    watch: Watch<'_>,
+) -> Result<Rendering, RenderError> {
+    settings.validate()?;
+    let kind = IntegratorKind::Raster;
+    let job = Job {
+        camera,
+        settings,
+        cpu,
+        quantity: kind.quantity(world, camera, settings.response),
+    };
+    job.run(watch, |exposure| {
+        LocalLight::new(world, exposure.through_pinhole())
+    })
 }
 
 /// A rendering under way, whatever the integrator.

@@ -29,7 +29,7 @@ pub(super) fn seen(
     let statistics = rows.map(|(row, y)| {
         let mut row_statistics = Statistics::default();
         for (pixel, x) in row.iter_mut().zip(extent.x0..) {
-            let ray = exposure.ray_of([x, y], sample);
+            let ray = exposure.ray([x, y], &exposure.sample([x, y], sample));
             let (hit, statistics) = world.intersect_counted(&ray);
             row_statistics += statistics;
             *pixel = hit.map(|hit| Seen {
@@ -47,19 +47,19 @@ pub(super) fn seen(
 
 /// Local shading of what rays meet, as the rasterizer shades what it draws: no shadow rays, no
 /// bounces.
-pub(super) struct LocalLight<'a> {
+pub(crate) struct LocalLight<'a> {
     world: &'a World,
     exposure: Exposure<'a>,
 }
 
 impl<'a> LocalLight<'a> {
-    pub(super) const fn new(world: &'a World, exposure: Exposure<'a>) -> Self {
+    pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>) -> Self {
         Self { world, exposure }
     }
 }
 
 /// The rays that see.
-pub(super) enum Primary {}
+pub(crate) enum Primary {}
 
 impl RayType for Primary {
     type Payload = (Sample, Rgb);
@@ -90,10 +90,10 @@ impl RayProgram<Primary> for LocalLight<'_> {
     fn miss(
         &self,
         _cx: &mut Context<'_, Self>,
-        _ray: &Ray,
+        ray: &Ray,
         (_, light): &mut (Sample, Rgb),
     ) -> Result<(), Exception> {
-        *light = self.world.scene().background;
+        *light = self.world.scene().background.at(ray.direction);
         Ok(())
     }
 }

@@ -80,7 +80,7 @@ impl Band {
         for (i, place) in self.places.iter_mut().enumerate() {
             let (x, y) = (i % width, i / width);
             let pixel = [self.cells.x0 + x as u32, self.cells.y0 + y as u32];
-            *place = exposure.place(pixel, sample);
+            *place = Exposure::place(pixel, &exposure.sample(pixel, sample));
         }
         self.depths.fill(f64::INFINITY);
         self.nearest.fill(None);

@@ -28,7 +28,8 @@ mod view;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ombra_geometry::{GeometryId, InstanceId, PrimitiveId};
+use ombra_geometry::shape::Plane;
+use ombra_geometry::{GeometryId, InstanceId, PrimitiveId, TriangleMesh};
 use ombra_scene::camera::Projection;
 use ombra_scene::{Camera, World};
 use rayon::prelude::*;
@@ -41,7 +42,7 @@ use crate::film::Pixel;
 use crate::{Crop, RenderError, Settings};
 use band::{Band, Nearest};
 use bands::{Bands, ROWS};
-use source::{Source, sources};
+use source::{Body, Form, Source, sources};
 use view::View;
 
 /// A scene, ready to be drawn from one camera.
@@ -51,6 +52,12 @@ pub(crate) struct Raster<'a> {
     sources: Vec<Source<'a>>,
     bands: Bands,
     extent: Crop,
+}
+
+/// Something that is drawn of an object.
+pub(crate) enum Drawable<'a> {
+    Mesh(&'a TriangleMesh),
+    Plane(Plane),
 }
 
 /// What is seen in a pixel, by either loop.
@@ -123,6 +130,21 @@ impl<'a> Raster<'a> {
         self.bands.primitives
     }
 
+    /// What is drawn of each object, in order.
+    pub(crate) fn drawables(&self) -> impl Iterator<Item = Vec<Drawable<'_>>> {
+        self.sources.iter().map(|source| match &source.body {
+            Body::Mesh(mesh) => vec![Drawable::Mesh(mesh)],
+            Body::Shapes(forms) => forms
+                .iter()
+                .filter_map(|form| match form {
+                    Form::Triangles(mesh) => Some(Drawable::Mesh(mesh)),
+                    Form::Endless(plane) => Some(Drawable::Plane(*plane)),
+                    Form::Nothing => None,
+                })
+                .collect(),
+        })
+    }
+
     /// Adds the samples of a pass to the pixels of the film. A band that is not finished when it is
     /// stopped holds no part of the pass. `done` hears of pixels as they are finished.
     pub(crate) fn expose(
@@ -147,12 +169,11 @@ impl<'a> Raster<'a> {
                 }
                 tally = tally.and(self.draw(&mut band, index, exposure, sample));
                 for ((place, seen), pixel) in band.seen().zip(&mut exposed) {
-                    let ray = exposure.ray_of(place, sample);
+                    let sample = exposure.sample(place, sample);
+                    let ray = exposure.ray(place, &sample);
                     pixel.add(match seen {
-                        None => self.world.scene().background,
-                        Some(nearest) => {
-                            self.shade(&ray, &exposure.sample(place, sample), &nearest)
-                        }
+                        None => self.world.scene().background.at(ray.direction),
+                        Some(nearest) => self.shade(&ray, &sample, &nearest),
                     });
                 }
             }

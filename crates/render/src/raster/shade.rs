@@ -8,7 +8,7 @@ use super::band::Nearest;
 use super::bands::Item;
 use super::facet::Fragment;
 use super::source::{Body, Form};
-use crate::sampler::Sample;
+use crate::sampler::{Dimension, Sample};
 use crate::shading::{self, Side};
 
 impl Raster<'_> {
@@ -73,16 +73,17 @@ pub(crate) fn local(
     let diffuse = material.diffuse_at(place.object_point, place.uv);
     let mut radiance = scene.ambient * diffuse;
     if diffuse.is_black() && material.specular.is_black() {
-        return radiance;
+        return material.emission + radiance;
     }
     let side = Side::of(place);
-    let _ = sample;
-    for light in &scene.lights {
-        if let Some(light) = light.sample_li(place.point) {
+    for (index, light) in scene.lights.iter().enumerate() {
+        // The numbers that the camera's ray has for the light: it is the first of its sample.
+        let xi = || sample.nth_pair(Dimension::Light, 1, index as u32);
+        if let Some(light) = light.sample_li(place.point, xi) {
             radiance += shading::scattered(material, diffuse, &side, place.wo, &light);
         }
     }
-    radiance
+    material.emission + radiance
 }
 
 /// Position, normal and surface parameters (with a third of 0) at weights of the second and the third

@@ -22,6 +22,8 @@ pub(super) struct View {
     half: [f64; 2],
     /// Half of the picture, in pixels.
     middle: [f64; 2],
+    /// Where the direction of the camera is seen, in units of `middle`: 1 unless it has a shift.
+    ahead: [f64; 2],
     perspective: bool,
     near: f64,
 }
@@ -69,10 +71,10 @@ impl View {
         settings: &Settings,
         reach: f64,
     ) -> Result<Self, RenderError> {
-        let (half_height, perspective) = match &camera.projection {
-            Projection::Perspective(p) => ((p.fov * 0.5).tan(), true),
-            Projection::ThinLens(p) => ((p.fov * 0.5).tan(), true),
-            Projection::Orthographic(p) => (p.height * 0.5, false),
+        let (half_height, shift, perspective) = match &camera.projection {
+            Projection::Perspective(p) => ((p.fov * 0.5).tan(), p.shift, true),
+            Projection::ThinLens(p) => ((p.fov * 0.5).tan(), p.shift, true),
+            Projection::Orthographic(p) => (p.height * 0.5, [0.0; 2], false),
             _ => return Err(RenderError::NotRasterizable),
         };
         let half = f64::from(half_height);
@@ -92,6 +94,7 @@ impl View {
             camera_from_world: world_from_camera.inverse(),
             half,
             middle,
+            ahead: shift.map(|shift| 1.0 - 2.0 * f64::from(shift)),
             perspective,
             near: if perspective {
                 (reach * NEAR).max(f64::MIN_POSITIVE)
@@ -129,8 +132,8 @@ impl View {
         let depth = -p.z;
         let w = if self.perspective { depth } else { 1.0 };
         Projected {
-            x: (p.x / self.half[0] + w) * self.middle[0],
-            y: (w - p.y / self.half[1]) * self.middle[1],
+            x: (p.x / self.half[0] + w * self.ahead[0]) * self.middle[0],
+            y: (w * self.ahead[1] - p.y / self.half[1]) * self.middle[1],
             w,
             depth,
         }
@@ -154,10 +157,11 @@ impl View {
         // same with 0.
         let (across, up) = (normal.x * self.half[0], normal.y * self.half[1]);
         let slope = [across / self.middle[0], -up / self.middle[1]];
+        let constant = up * self.ahead[1] - across * self.ahead[0];
         let [divisor, rest] = if self.perspective {
-            [offset, up - across - normal.z]
+            [offset, constant - normal.z]
         } else {
-            [normal.z, up - across - offset]
+            [normal.z, constant - offset]
         };
         let coefficients = [slope[0], slope[1], rest].map(|x| x / divisor);
         coefficients
@@ -203,10 +207,8 @@ impl Horizon {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         let mut found = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut hold = |p: [f64; 2]| {
-            for i in 0..2 {
-                found.0[i] = found.0[i].min(p[i]);
-                found.1[i] = found.1[i].max(p[i]);
-            }
+            found.0 = [found.0[0].min(p[0]), found.0[1].min(p[1])];
+            found.1 = [found.1[0].max(p[0]), found.1[1].max(p[1])];
         };
         for (i, &a) in corners.iter().enumerate() {
             let b = corners[(i + 1) % 4];
