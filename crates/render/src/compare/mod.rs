@@ -10,6 +10,7 @@ mod operations;
 mod rays;
 mod visibility;
 
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use ombra_accel::StructureKind;
@@ -69,6 +70,7 @@ pub fn compare(
     cpu: &Cpu,
     watch: &Watch<'_>,
 ) -> Result<Option<Comparison>, RenderError> {
+    let stop = watch.stop;
     let watch = || Watch {
         stop: watch.stop,
         progress: watch.progress,
@@ -95,17 +97,27 @@ pub fn compare(
     let Some(whitted) = timed(&|| render(world, camera, &whitted, cpu, watch()))? else {
         return Ok(None);
     };
+    let visibility = visibility(world, camera, settings, cpu)?;
+    let resolutions = operations::with_resolution(world, camera, settings, cpu)?;
+    let is_stopped = || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+    if is_stopped() {
+        return Ok(None);
+    }
+    let primitives = operations::with_primitives(world, camera, settings, kind, cpu)?;
+    if is_stopped() {
+        return Ok(None);
+    }
     let shading = ColourAgreement::of(&raster.rendering.film, &local.rendering.film);
     let rays_add = ColourAgreement::of(&raster.rendering.film, &whitted.rendering.film);
     Ok(Some(Comparison {
-        visibility: visibility(world, camera, settings, cpu)?,
+        visibility,
         raster,
         local,
         whitted,
         shading,
         rays_add,
-        resolutions: operations::with_resolution(world, camera, settings, cpu)?,
-        primitives: operations::with_primitives(world, camera, settings, kind, cpu)?,
+        resolutions,
+        primitives,
     }))
 }
 

@@ -20,6 +20,8 @@ const MOST_TRIANGLES: u64 = 1 << 19;
 /// acceleration structure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
+    /// Columns and rows.
+    pub size: [u32; 2],
     /// How many pixels.
     pub pixels: u64,
     /// How many primitives rays can meet.
@@ -60,6 +62,7 @@ impl Operations {
             let (_, tally) = raster.seen(&exposure, 0);
             let (_, statistics) = rays::seen(world, camera, &extent, &exposure, 0);
             Ok(Self {
+                size: [extent.width(), extent.height()],
                 pixels: extent.pixels(),
                 primitives: world.primitives() as u64,
                 drawn: raster.primitives(),
