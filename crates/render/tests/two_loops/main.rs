@@ -1,6 +1,8 @@
 //! The rasterizer against rays: both must see the same, but where an edge runs through a sample.
 
 mod meshes;
+mod shading;
+mod shapes;
 
 use ombra_accel::{Geometry, Mesh, StructureKind};
 use ombra_geometry::{Angle, Point3, Transform, TriangleMesh, Vector3};
