@@ -20,6 +20,10 @@ const TABLE: &[Picture] = &[
         arguments: "render whitted --size 640x360 --spp 16",
     },
     Picture {
+        file: "docs/pictures/whitted-raster.png",
+        arguments: "render whitted --size 640x360 --spp 16 --integrator raster",
+    },
+    Picture {
         file: "docs/pictures/teapot.png",
         arguments: "render teapot --size 384x256 --spp 16",
     },

@@ -38,7 +38,7 @@ pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image, read_texture,
-    write_image,
+    write_bytes, write_image,
 };
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;

@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub(crate) mod compare;
 pub(crate) mod info;
 pub(crate) mod lists;
 pub(crate) mod render;
