@@ -23,6 +23,9 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// Rasterize and ray trace a scene, and compare the two loops
     Compare(Box<CompareArgs>),
+    /// The minimal ray tracing contest of 1987: its scenes, its format, its rules
+    #[command(subcommand)]
+    Minray(MinrayCommand),
     /// Say what a file holds: a model, a scene, a picture
     Info(InfoArgs),
     /// List the built-in scenes
@@ -168,6 +171,42 @@ impl CompareArgs {
             json: self.json,
         }
     }
+}
+
+/// The first scene of the contest.
+pub(crate) const FIRST_OF_CONTEST: &str = "test1";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum MinrayCommand {
+    /// Render a scene of the contest and write the picture in its format
+    Render(MinrayRenderArgs),
+    /// Score a picture in the contest's format, from any program, by the contest's rules
+    Verify(MinrayVerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MinrayRenderArgs {
+    /// A scene of the contest: a ray.h, or test1, test2, test3
+    #[arg(default_value = FIRST_OF_CONTEST)]
+    pub(crate) scene: String,
+
+    /// Where to write the picture [default: standard output]
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MinrayVerifyArgs {
+    /// The picture: "xsize ysize", then "r g b" for each pixel
+    pub(crate) file: PathBuf,
+
+    /// The scene that it shows: a ray.h, or test1, test2, test3
+    #[arg(long, value_name = "SCENE", default_value = FIRST_OF_CONTEST)]
+    pub(crate) scene: String,
+
+    /// As JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -3,4 +3,5 @@
 pub(crate) mod compare;
 pub(crate) mod info;
 pub(crate) mod lists;
+pub(crate) mod minray;
 pub(crate) mod render;
