@@ -45,6 +45,8 @@ pub mod film;
 pub mod optics;
 pub mod sampler;
 
+pub mod explain;
+
 mod exposure;
 mod integrator;
 mod render;

@@ -10,6 +10,7 @@ use ombra_geometry::{Hit, Ray};
 use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
 use ombra_scene::{Interaction, Material, Rgb, World};
 
+use crate::explain::{self, End, Event, Observer, Part, RayKind, Split};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 use crate::optics;
@@ -35,11 +36,12 @@ use side::Side;
 /// what it would have seen and the background, and there may be several: in four nested spheres of
 /// glass they add up to less than 1/256 of the largest such difference at 8 bounces and to less than
 /// 1/128 at 12 (see the tests).
-pub(crate) struct Whitted<'a> {
+pub(crate) struct Whitted<'a, O = ()> {
     world: &'a World,
     exposure: Exposure<'a>,
     max_depth: u32,
     least_importance: f32,
+    observer: O,
 }
 
 /// What a ray's light must count for in its pixel for the ray to be worth tracing.
@@ -67,14 +69,28 @@ struct Traced {
 
 impl<'a> Whitted<'a> {
     pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>, max_depth: u32) -> Self {
+        Self::observed(world, exposure, max_depth, ())
+    }
+}
+
+impl<'a, O> Whitted<'a, O> {
+    pub(crate) const fn observed(
+        world: &'a World,
+        exposure: Exposure<'a>,
+        max_depth: u32,
+        observer: O,
+    ) -> Self {
         Self {
             world,
             exposure,
             max_depth,
             least_importance: LEAST_IMPORTANCE,
+            observer,
         }
     }
+}
 
+impl<O: Observer> Whitted<'_, O> {
     /// The lecture's function.
     fn radiance(
         &self,
@@ -84,7 +100,12 @@ impl<'a> Whitted<'a> {
         importance: f32,
     ) -> Result<Rgb, Exception> {
         let background = self.world.scene().background;
-        if step > self.max_depth || importance < self.least_importance {
+        if step > self.max_depth {
+            self.observer.tell(|| Event::Ends(End::MaxDepth));
+            return Ok(background);
+        }
+        if importance < self.least_importance {
+            self.observer.tell(|| Event::Ends(End::Unimportant));
             return Ok(background);
         }
         let mut traced = Traced {
@@ -92,7 +113,7 @@ impl<'a> Whitted<'a> {
             importance,
             radiance: background,
         };
-        cx.trace::<Radiance>(ray, &mut traced)?;
+        explain::trace::<Radiance, _, _>(&self.observer, cx, ray, &mut traced)?;
         Ok(traced.radiance)
     }
 
@@ -115,20 +136,31 @@ impl<'a> Whitted<'a> {
                 Some(_) if material.fresnel => optics::fresnel(side.cosine(place.wo), eta),
                 Some(_) => 0.0,
             };
+            self.observer.tell(|| {
+                Event::Splits(Split {
+                    eta,
+                    mirrored: share,
+                    total: through.is_none(),
+                })
+            });
             mirrored += material.transmission * share;
             if let Some(direction) = through {
                 let weight = material.transmission * (1.0 - share);
-                radiance += self.weighted(cx, place.spawn(direction), weight, traced)?;
+                let ray = place.spawn(direction);
+                let kind = RayKind::Transmitted;
+                radiance += self.weighted(cx, kind, ray, weight, traced)?;
             }
         }
         let direction = side.reflected(place.wo);
-        radiance += self.weighted(cx, place.spawn(direction), mirrored, traced)?;
+        let ray = place.spawn(direction);
+        radiance += self.weighted(cx, RayKind::Reflected, ray, mirrored, traced)?;
         Ok(radiance)
     }
 
     fn weighted(
         &self,
         cx: &mut Context<'_, Self>,
+        kind: RayKind,
         ray: Ray,
         weight: Rgb,
         traced: &Traced,
@@ -138,11 +170,14 @@ impl<'a> Whitted<'a> {
             return Ok(Rgb::BLACK);
         }
         let importance = traced.importance * weight.max_component();
-        Ok(weight * self.radiance(cx, &ray, traced.step + 1, importance)?)
+        self.observer.tell(|| Event::Wanted { kind, ray, weight });
+        let radiance = self.radiance(cx, &ray, traced.step + 1, importance)?;
+        self.observer.tell(|| Event::Done(radiance));
+        Ok(weight * radiance)
     }
 }
 
-impl Pipeline for Whitted<'_> {
+impl<O: Observer> Pipeline for Whitted<'_, O> {
     type World = World;
 
     fn world(&self) -> &World {
@@ -155,7 +190,7 @@ impl Pipeline for Whitted<'_> {
     }
 }
 
-impl RayProgram<Radiance> for Whitted<'_> {
+impl<O: Observer> RayProgram<Radiance> for Whitted<'_, O> {
     fn closest_hit(
         &self,
         cx: &mut Context<'_, Self>,
@@ -165,10 +200,16 @@ impl RayProgram<Radiance> for Whitted<'_> {
     ) -> Result<(), Exception> {
         let material = self.world.material(hit);
         if material.is_light_source() {
+            self.observer
+                .tell(|| Event::met(hit, &self.world.interaction(ray, hit)));
+            self.observer
+                .tell(|| Event::Adds(Part::Emission(material.emission)));
+            self.observer.tell(|| Event::Ends(End::LightSource));
             traced.radiance = material.emission;
             return Ok(());
         }
         let place = self.world.interaction(ray, hit);
+        self.observer.tell(|| Event::met(hit, &place));
         let side = Side::of(&place);
         traced.radiance = self.local(cx, &place, &side, material)?
             + self.bounced(cx, &place, &side, material, traced)?;
@@ -176,7 +217,7 @@ impl RayProgram<Radiance> for Whitted<'_> {
     }
 }
 
-impl RayProgram<Shadow> for Whitted<'_> {
+impl<O: Observer> RayProgram<Shadow> for Whitted<'_, O> {
     /// What is opaque ends the ray, what is transparent dims the light, and a light source lets it
     /// pass: else a lamp would put itself into the shade.
     #[inline]
@@ -185,21 +226,27 @@ impl RayProgram<Shadow> for Whitted<'_> {
         if material.is_light_source() {
             AnyHit::Ignore
         } else if material.transmission.is_black() {
+            self.observer.tell(|| Event::crossed(hit, None));
             filter.block();
             AnyHit::Terminate
         } else {
+            self.observer
+                .tell(|| Event::crossed(hit, Some(material.transmission)));
             filter.dim(material.transmission);
             AnyHit::Ignore
         }
     }
 }
 
-impl RayGeneration for Whitted<'_> {
+impl<O: Observer> RayGeneration for Whitted<'_, O> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
         self.exposure.expose(cx.launch_index(), pixel, |ray, _| {
-            self.radiance(cx, ray, 0, 1.0)
+            self.observer.tell(|| Event::camera(ray));
+            let radiance = self.radiance(cx, ray, 0, 1.0)?;
+            self.observer.tell(|| Event::Done(radiance));
+            Ok(radiance)
         })
     }
 }

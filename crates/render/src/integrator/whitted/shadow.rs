@@ -27,6 +27,12 @@ impl Filter {
         self.blocked = true;
     }
 
+    /// Whether nothing gets through.
+    #[inline]
+    pub(super) const fn is_blocked(&self) -> bool {
+        self.blocked
+    }
+
     /// Only a part gets through.
     #[inline]
     pub(super) fn dim(&mut self, transmission: Rgb) {
