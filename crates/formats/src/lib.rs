@@ -32,6 +32,7 @@ mod limits;
 mod mesh;
 mod number;
 mod source;
+mod whole;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
@@ -42,3 +43,4 @@ pub use image::{
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;
 pub use mesh::{Model, ModelFormat, Part, read_model, with_normals};
+pub use whole::write_whole;

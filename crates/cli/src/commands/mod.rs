@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub(crate) mod explain;
 pub(crate) mod info;
 pub(crate) mod lists;
 pub(crate) mod render;
