@@ -29,6 +29,7 @@ mod rectangle;
 mod revolved;
 mod slabs;
 mod sphere;
+mod tessellate;
 mod torus;
 mod triangle;
 
@@ -45,6 +46,7 @@ pub use plane::Plane;
 pub use polyhedron::{ConvexPolyhedron, HalfSpace};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
+pub use tessellate::{MAX_TRIANGLES, TessellationError, tessellate, triangle_count};
 pub use torus::Torus;
 pub use triangle::Triangle;
 

@@ -28,6 +28,18 @@ impl Plane {
         })
     }
 
+    /// The point that it was given by.
+    #[must_use]
+    pub const fn point(&self) -> Point3<f64> {
+        self.frame.origin
+    }
+
+    /// Its unit normal.
+    #[must_use]
+    pub const fn normal(&self) -> Normal3<f64> {
+        self.frame.z.to_normal()
+    }
+
     fn uv(local: Vector3<f64>) -> [f32; 2] {
         [local.x, local.y].map(|x| unit(x - x.floor()))
     }
