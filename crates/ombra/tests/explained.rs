@@ -5,7 +5,7 @@ use ombra::geometry::Angle;
 use ombra::pipeline::Cpu;
 use ombra::render::explain::explain;
 use ombra::render::{IntegratorKind, Settings, Watch, render};
-use ombra::scene::camera::{Projection, ThinLens};
+use ombra::scene::camera::{Aperture, Projection, ThinLens};
 use ombra::scene::{Camera, Rgb, World};
 use ombra::{LoadOptions, builtin, load};
 
@@ -78,8 +78,10 @@ fn trees_add_up_through_a_lens() {
     let world = built("whitted");
     let lens = ThinLens {
         fov: Angle::from_degrees(38.0),
+        shift: [0.0; 2],
         lens_radius: 0.2,
         focus_distance: 5.0,
+        aperture: Aperture::default(),
     };
     let camera = Camera {
         projection: Projection::ThinLens(lens),

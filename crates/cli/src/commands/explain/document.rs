@@ -265,6 +265,8 @@ pub(crate) fn light_kind(scene: &Scene, index: usize) -> &'static str {
         Some(Light::Point { .. }) => "point",
         Some(Light::Directional { .. }) => "directional",
         Some(Light::Spot { .. }) => "spot",
+        Some(Light::Area { .. }) => "area",
+        Some(Light::Luminous { .. }) => "luminous object",
         _ => "light",
     }
 }

@@ -2,24 +2,23 @@
 
 use ombra_pipeline::{Context, Exception};
 use ombra_scene::light::LightSample;
-use ombra_scene::{Interaction, Light, Material, Rgb};
+use ombra_scene::{Interaction, Material, Rgb};
 
-use super::Whitted;
-use super::shadow::{Filter, Shadow};
-use super::side::Side;
+use super::shadow::{Shade, Shadow};
+use super::{Traced, Whitted};
 use crate::explain::{self, End, Event, LightWay, Observer, Part, RayKind};
-use crate::optics;
+use crate::sampler::Dimension;
+use crate::shading::{self, Side};
 
 impl<O: Observer> Whitted<'_, O> {
-    /// The ambient part, and of each light that is not in the shade the diffuse and the specular
-    /// part: kd (N · L) + ks (R · V)ⁿ (Phong, "Illumination for Computer Generated Pictures", CACM
-    /// 18(6), 1975).
+    /// The ambient part, and what is scattered of each light that is not in the shade.
     pub(super) fn local(
         &self,
         cx: &mut Context<'_, Self>,
         place: &Interaction,
         side: &Side,
         material: &Material,
+        traced: &Traced,
     ) -> Result<Rgb, Exception> {
         let scene = self.world.scene();
         let diffuse = material.diffuse_at(place.object_point, place.uv);
@@ -29,49 +28,29 @@ impl<O: Observer> Whitted<'_, O> {
             return Ok(radiance);
         }
         for (index, light) in scene.lights.iter().enumerate() {
-            radiance += self.lit(cx, place, side, material, diffuse, index, light)?;
+            let xi = || traced.pair(Dimension::Light, index);
+            let Some(light) = light.sample_li(place.point, xi) else {
+                self.observer.tell(|| unlit(index, LightWay::OutOfReach));
+                continue;
+            };
+            let scattered = shading::scattered(material, diffuse, side, place.wo, &light);
+            if !scattered.is_black() {
+                radiance += scattered * self.unshadowed(cx, place, index, &light, scattered)?;
+            }
+            self.observer.tell(|| {
+                let Some(terms) = shading::terms(material, diffuse, side, place.wo, &light) else {
+                    return unlit(index, LightWay::Behind);
+                };
+                let [diffuse, specular] = terms.map(|term| term * light.incident);
+                Event::Light {
+                    light: index,
+                    diffuse,
+                    specular,
+                    way: scattered.is_black().then_some(LightWay::NothingScattered),
+                }
+            });
         }
         Ok(radiance)
-    }
-
-    /// What one light adds.
-    fn lit(
-        &self,
-        cx: &mut Context<'_, Self>,
-        place: &Interaction,
-        side: &Side,
-        material: &Material,
-        diffuse: Rgb,
-        index: usize,
-        light: &Light,
-    ) -> Result<Rgb, Exception> {
-        let Some(light) = light.sample_li(place.point) else {
-            self.unlit(index, LightWay::OutOfReach);
-            return Ok(Rgb::BLACK);
-        };
-        let cosine = side.shading_normal.dot(light.wi);
-        if !(cosine > 0.0 && side.is_in_front(light.wi)) {
-            self.unlit(index, LightWay::Behind);
-            return Ok(Rgb::BLACK);
-        }
-        let mut scattered = diffuse * cosine;
-        if !material.specular.is_black() {
-            let highlight = optics::reflected(light.wi, side.shading_normal).dot(place.wo);
-            scattered += material.specular * highlight.max(0.0).powf(material.shininess);
-        }
-        if scattered.is_black() {
-            self.unlit(index, LightWay::NothingScattered);
-            return Ok(Rgb::BLACK);
-        }
-        let weight = scattered * light.incident;
-        let arriving = self.unshadowed(cx, place, index, &light, weight)?;
-        self.observer.tell(|| Event::Light {
-            light: index,
-            diffuse: diffuse * cosine * light.incident,
-            specular: (scattered + diffuse * -cosine) * light.incident,
-            way: None,
-        });
-        Ok(weight * arriving)
     }
 
     /// How much of a light reaches a place.
@@ -83,29 +62,37 @@ impl<O: Observer> Whitted<'_, O> {
         light: &LightSample,
         weight: Rgb,
     ) -> Result<Rgb, Exception> {
-        let ray = place.spawn_within(light.wi, light.distance);
+        let mut shade = Shade::of(light);
+        // The light of an object may be met anywhere on its surface.
+        let distance = match light.object {
+            Some(_) => f32::INFINITY,
+            None => light.distance,
+        };
+        let ray = place.spawn_within(light.wi, distance);
+        // A place at the end of the number range has no ray that leaves it.
         let kind = RayKind::Shadow { light: index };
         self.observer.tell(|| Event::Wanted { kind, ray, weight });
-        let mut filter = Filter::default();
-        // A place at the end of the number range has no ray that leaves it.
         if ray.is_valid() {
-            explain::trace::<Shadow, _, _>(&self.observer, cx, &ray, &mut filter)?;
+            explain::trace::<Shadow, _, _>(&self.observer, cx, &ray, &mut shade)?;
         }
-        let blocked = filter.is_blocked();
-        let arriving = filter.transmitted();
-        self.observer
-            .tell(|| Event::Ends(if blocked { End::Blocked } else { End::Free }));
+        let end = if shade.is_blocked() {
+            End::Blocked
+        } else {
+            End::Free
+        };
+        let arriving = shade.transmitted();
+        self.observer.tell(|| Event::Ends(end));
         self.observer.tell(|| Event::Done(arriving));
         Ok(arriving)
     }
+}
 
-    /// Tells that a light was not asked for.
-    fn unlit(&self, light: usize, way: LightWay) {
-        self.observer.tell(|| Event::Light {
-            light,
-            diffuse: Rgb::BLACK,
-            specular: Rgb::BLACK,
-            way: Some(way),
-        });
+/// A light that no shadow ray asked for.
+const fn unlit(light: usize, way: LightWay) -> Event {
+    Event::Light {
+        light,
+        diffuse: Rgb::BLACK,
+        specular: Rgb::BLACK,
+        way: Some(way),
     }
 }

@@ -2,7 +2,6 @@
 
 mod local;
 mod shadow;
-mod side;
 #[cfg(test)]
 mod tests;
 
@@ -14,19 +13,21 @@ use crate::explain::{self, End, Event, Observer, Part, RayKind, Split};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 use crate::optics;
-use shadow::{Filter, Shadow};
-use side::Side;
+use crate::sampler::{Dimension, Sample};
+use crate::shading::Side;
+use shadow::{Shade, Shadow};
 
 /// trace(point, direction, step) of the lecture, after Whitted, "An Improved Illumination Model for
 /// Shaded Display", CACM 23(6), 1980:
 ///
-/// - beyond the last step, and where there is nothing: the background;
+/// - beyond the last step, and where there is nothing: the background (but see
+///   [`Cutoff`](ombra_scene::Cutoff));
 /// - a light source: its emission, and nothing else;
-/// - any other surface: Phong's local term, plus what is seen in the mirror direction, plus what is
-///   seen through the surface, each by a ray with one step more.
+/// - any other surface: its emission, if it has any, Phong's local term, what is seen in the mirror
+///   direction, and what is seen through the surface, the last two by a ray with one step more.
 ///
-/// A ray of whose light less than a thousandth arrives at the pixel is taken to see the background,
-/// like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
+/// A ray of whose light less than a thousandth arrives at the pixel is taken to see what is seen
+/// beyond the last step, like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
 /// Computer Graphics and Applications 3(8), 1983. In glass every ray becomes two, so without this the
 /// number of rays doubles with every step. With it, where surfaces are grey and pass on no more light
 /// than arrives (reflection + transmission ≤ 1), the rays of one step have shares that add up to no
@@ -36,6 +37,8 @@ use side::Side;
 /// what it would have seen and the background, and there may be several: in four nested spheres of
 /// glass they add up to less than 1/256 of the largest such difference at 8 bounces and to less than
 /// 1/128 at 12 (see the tests).
+///
+/// What it does it tells an [`Observer`], for [`explain`](crate::explain).
 pub(crate) struct Whitted<'a, O = ()> {
     world: &'a World,
     exposure: Exposure<'a>,
@@ -58,6 +61,11 @@ impl RayType for Radiance {
 /// What a radiance ray carries.
 #[derive(Clone, Copy)]
 struct Traced {
+    /// The random numbers of the sample that it belongs to.
+    sample: Sample,
+    /// Which ray of the sample it is: the camera's is 1, the mirrored child of n is 2 n, the other
+    /// one 2 n + 1. Beyond 63 steps numbers repeat, which only ties some shadows to others.
+    branch: u64,
     /// How often its light was reflected or refracted on the way.
     step: u32,
     /// What share of its light arrives at the pixel, at most: the product of what the surfaces on
@@ -65,6 +73,42 @@ struct Traced {
     importance: f32,
     /// What it brought.
     radiance: Rgb,
+}
+
+impl Traced {
+    /// The ray of a camera.
+    const fn camera(sample: Sample) -> Self {
+        Self {
+            sample,
+            branch: 1,
+            step: 0,
+            importance: 1.0,
+            radiance: Rgb::BLACK,
+        }
+    }
+
+    /// The ray in the mirror direction.
+    const fn mirrored(&self) -> Self {
+        Self {
+            branch: self.branch << 1,
+            step: self.step + 1,
+            ..*self
+        }
+    }
+
+    /// The ray through the surface.
+    const fn through(&self) -> Self {
+        Self {
+            branch: self.branch << 1 | 1,
+            step: self.step + 1,
+            ..*self
+        }
+    }
+
+    /// Two random numbers for the `n`-th of a kind where this ray ends.
+    fn pair(&self, dimension: Dimension, n: usize) -> [f32; 2] {
+        self.sample.nth_pair(dimension, self.branch, n as u32)
+    }
 }
 
 impl<'a> Whitted<'a> {
@@ -96,24 +140,23 @@ impl<O: Observer> Whitted<'_, O> {
         &self,
         cx: &mut Context<'_, Self>,
         ray: &Ray,
-        step: u32,
-        importance: f32,
+        mut traced: Traced,
     ) -> Result<Rgb, Exception> {
-        let background = self.world.scene().background;
-        if step > self.max_depth {
-            self.observer.tell(|| Event::Ends(End::MaxDepth));
-            return Ok(background);
+        let beyond = traced.step > self.max_depth;
+        if beyond || traced.importance < self.least_importance {
+            let radiance = self.world.scene().beyond(ray.direction);
+            self.observer.tell(|| {
+                Event::Ends(if beyond {
+                    End::MaxDepth
+                } else {
+                    End::Unimportant
+                })
+            });
+            self.observer.tell(|| Event::Done(radiance));
+            return Ok(radiance);
         }
-        if importance < self.least_importance {
-            self.observer.tell(|| Event::Ends(End::Unimportant));
-            return Ok(background);
-        }
-        let mut traced = Traced {
-            step,
-            importance,
-            radiance: background,
-        };
         explain::trace::<Radiance, _, _>(&self.observer, cx, ray, &mut traced)?;
+        self.observer.tell(|| Event::Done(traced.radiance));
         Ok(traced.radiance)
     }
 
@@ -132,7 +175,8 @@ impl<O: Observer> Whitted<'_, O> {
             let eta = side.eta(material.index_of_refraction);
             let through = side.refracted(place.wo, eta);
             let share = match through {
-                None => 1.0,
+                None if material.internal_reflection => 1.0,
+                None => 0.0,
                 Some(_) if material.fresnel => optics::fresnel(side.cosine(place.wo), eta),
                 Some(_) => 0.0,
             };
@@ -148,12 +192,12 @@ impl<O: Observer> Whitted<'_, O> {
                 let weight = material.transmission * (1.0 - share);
                 let ray = place.spawn(direction);
                 let kind = RayKind::Transmitted;
-                radiance += self.weighted(cx, kind, ray, weight, traced)?;
+                radiance += self.weighted(cx, kind, ray, weight, traced.through())?;
             }
         }
         let direction = side.reflected(place.wo);
-        let ray = place.spawn(direction);
-        radiance += self.weighted(cx, RayKind::Reflected, ray, mirrored, traced)?;
+        let (ray, kind) = (place.spawn(direction), RayKind::Reflected);
+        radiance += self.weighted(cx, kind, ray, mirrored, traced.mirrored())?;
         Ok(radiance)
     }
 
@@ -163,17 +207,19 @@ impl<O: Observer> Whitted<'_, O> {
         kind: RayKind,
         ray: Ray,
         weight: Rgb,
-        traced: &Traced,
+        child: Traced,
     ) -> Result<Rgb, Exception> {
         // A place at the end of the number range has no ray that leaves it.
         if weight.is_black() || !ray.is_valid() {
             return Ok(Rgb::BLACK);
         }
-        let importance = traced.importance * weight.max_component();
+        let importance = child.importance * weight.max_component();
+        let child = Traced {
+            importance,
+            ..child
+        };
         self.observer.tell(|| Event::Wanted { kind, ray, weight });
-        let radiance = self.radiance(cx, &ray, traced.step + 1, importance)?;
-        self.observer.tell(|| Event::Done(radiance));
-        Ok(weight * radiance)
+        Ok(weight * self.radiance(cx, &ray, child)?)
     }
 }
 
@@ -210,9 +256,22 @@ impl<O: Observer> RayProgram<Radiance> for Whitted<'_, O> {
         }
         let place = self.world.interaction(ray, hit);
         self.observer.tell(|| Event::met(hit, &place));
+        self.observer
+            .tell(|| Event::Adds(Part::Emission(material.emission)));
         let side = Side::of(&place);
-        traced.radiance = self.local(cx, &place, &side, material)?
+        traced.radiance = material.emission
+            + self.local(cx, &place, &side, material, traced)?
             + self.bounced(cx, &place, &side, material, traced)?;
+        Ok(())
+    }
+
+    fn miss(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        ray: &Ray,
+        traced: &mut Traced,
+    ) -> Result<(), Exception> {
+        traced.radiance = self.world.scene().background.at(ray.direction);
         Ok(())
     }
 }
@@ -221,20 +280,49 @@ impl<O: Observer> RayProgram<Shadow> for Whitted<'_, O> {
     /// What is opaque ends the ray, what is transparent dims the light, and a light source lets it
     /// pass: else a lamp would put itself into the shade.
     #[inline]
-    fn any_hit(&self, _ray: &Ray, hit: &Hit, filter: &mut Filter) -> AnyHit {
+    fn any_hit(&self, _ray: &Ray, hit: &Hit, shade: &mut Shade) -> AnyHit {
+        if shade.looks_for_object() {
+            return AnyHit::Accept;
+        }
         let material = self.world.material(hit);
         if material.is_light_source() {
             AnyHit::Ignore
         } else if material.transmission.is_black() {
             self.observer.tell(|| Event::crossed(hit, None));
-            filter.block();
+            shade.block();
             AnyHit::Terminate
         } else {
             self.observer
                 .tell(|| Event::crossed(hit, Some(material.transmission)));
-            filter.dim(material.transmission);
+            shade.dim(material.transmission);
             AnyHit::Ignore
         }
+    }
+
+    #[inline]
+    fn closest_hit(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        _ray: &Ray,
+        hit: &Hit,
+        shade: &mut Shade,
+    ) -> Result<(), Exception> {
+        if shade.looks_for_object() {
+            self.observer.tell(|| Event::crossed(hit, None));
+        }
+        shade.met(Some(hit.instance));
+        Ok(())
+    }
+
+    #[inline]
+    fn miss(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        _ray: &Ray,
+        shade: &mut Shade,
+    ) -> Result<(), Exception> {
+        shade.met(None);
+        Ok(())
     }
 }
 
@@ -242,11 +330,10 @@ impl<O: Observer> RayGeneration for Whitted<'_, O> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
-        self.exposure.expose(cx.launch_index(), pixel, |ray, _| {
-            self.observer.tell(|| Event::camera(ray));
-            let radiance = self.radiance(cx, ray, 0, 1.0)?;
-            self.observer.tell(|| Event::Done(radiance));
-            Ok(radiance)
-        })
+        self.exposure
+            .expose(cx.launch_index(), pixel, |ray, sample| {
+                self.observer.tell(|| Event::camera(ray));
+                self.radiance(cx, ray, Traced::camera(*sample))
+            })
     }
 }
