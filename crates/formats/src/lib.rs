@@ -26,6 +26,7 @@ pub mod sha256;
 
 mod error;
 mod finding;
+mod glb;
 mod image;
 mod info;
 mod limits;
@@ -36,6 +37,7 @@ mod whole;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
+pub use glb::{GlbMaterial, GlbMesh, GlbModel};
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image, read_texture,
     write_image,

@@ -39,7 +39,6 @@ pub(crate) struct Document {
     #[serde(flatten)]
     pub(crate) heading: Heading,
     pub(crate) samples: Vec<Sample>,
-    pub(crate) colour: [Number; 3],
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

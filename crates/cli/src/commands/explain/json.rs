@@ -2,39 +2,28 @@
 
 use std::cell::RefCell;
 
-use serde::ser::{Error as _, SerializeMap as _, SerializeSeq as _};
+use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Serialize, Serializer};
 
 use super::document::{Heading, Sample};
 use super::number::Number;
 
 /// A document whose samples are made while it is written: memory is taken for one of them.
+#[derive(Serialize)]
+#[serde(bound = "F: FnMut() -> anyhow::Result<Option<Sample>>")]
 pub(crate) struct Written<'a, F> {
+    #[serde(flatten)]
     pub(crate) heading: &'a Heading,
     /// Gives the next sample, or none after the last one.
-    pub(crate) next: RefCell<F>,
+    pub(crate) samples: Samples<F>,
     /// Asked when all samples are written.
+    #[serde(serialize_with = "asked")]
     pub(crate) colour: &'a dyn Fn() -> [Number; 3],
 }
 
-impl<F: FnMut() -> anyhow::Result<Option<Sample>>> Serialize for Written<'_, F> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        let heading = serde_json::to_value(self.heading).map_err(S::Error::custom)?;
-        if let serde_json::Value::Object(fields) = heading {
-            for (name, value) in fields {
-                map.serialize_entry(&name, &value)?;
-            }
-        }
-        map.serialize_entry("samples", &Samples(&self.next))?;
-        map.serialize_entry("colour", &(self.colour)())?;
-        map.end()
-    }
-}
+pub(crate) struct Samples<F>(pub(crate) RefCell<F>);
 
-struct Samples<'a, F>(&'a RefCell<F>);
-
-impl<F: FnMut() -> anyhow::Result<Option<Sample>>> Serialize for Samples<'_, F> {
+impl<F: FnMut() -> anyhow::Result<Option<Sample>>> Serialize for Samples<F> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut list = serializer.serialize_seq(None)?;
         let mut next = self.0.borrow_mut();
@@ -43,4 +32,11 @@ impl<F: FnMut() -> anyhow::Result<Option<Sample>>> Serialize for Samples<'_, F> 
         }
         list.end()
     }
+}
+
+fn asked<S: Serializer>(
+    colour: &&dyn Fn() -> [Number; 3],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    colour().serialize(serializer)
 }

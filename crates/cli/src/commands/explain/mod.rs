@@ -3,10 +3,14 @@
 mod args;
 mod diff;
 mod document;
+mod drawing;
 mod json;
+mod model;
 mod number;
 mod part;
+mod path;
 mod side;
+mod solid;
 mod text;
 
 use std::cell::RefCell;
@@ -15,23 +19,28 @@ use std::process::ExitCode;
 
 use clap::CommandFactory as _;
 use clap::error::ErrorKind;
+use ombra::formats::write_whole;
 use ombra::geometry::Vector3;
 use ombra::pipeline::Cpu;
 use ombra::render::Settings;
-use ombra::render::explain::{ExplainError, Explainer};
+use ombra::render::explain::{ExplainError, Explainer, SampleTree};
 use ombra::scene::{Camera, Scene, World};
 use ombra::{LoadOptions, Loaded};
 
 use crate::args::{Cli, Size, Up};
 pub(crate) use args::ExplainArgs;
 use document::{FORMAT, Heading, Sample};
-use number::{Number, numbers};
+use drawing::Drawing;
+use number::numbers;
 use side::Choice;
 
 const SIZE: Size = Size {
     width: 960,
     height: 540,
 };
+
+/// A drawing or a model shows the rays of samples until there are so many.
+const MAX_KEPT: usize = 100_000;
 
 pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
     if let Some(sides) = &args.diff {
@@ -55,12 +64,24 @@ pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
         }
     };
     let explainer = RefCell::new(&mut explainer);
+    let drawn = args.svg.is_some() || args.glb.is_some();
+    let kept: RefCell<Vec<SampleTree>> = RefCell::default();
     let mut indices = indices;
     let next = || -> anyhow::Result<Option<Sample>> {
         let Some(index) = indices.next() else {
             return Ok(None);
         };
         let tree = explainer.borrow_mut().sample(index, &cpu)?;
+        if drawn
+            && kept
+                .borrow()
+                .iter()
+                .map(|tree| tree.rays.len())
+                .sum::<usize>()
+                < MAX_KEPT
+        {
+            kept.borrow_mut().push(tree.clone());
+        }
         Ok(Some(Sample::of(&tree, world.scene())))
     };
     let colour = || numbers(explainer.borrow().colour().to_array());
@@ -68,7 +89,7 @@ pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
     if args.json {
         let written = json::Written {
             heading: &heading,
-            next: RefCell::new(next),
+            samples: json::Samples(RefCell::new(next)),
             colour: &colour,
         };
         serde_json::to_writer_pretty(&mut out, &written).map_err(json_error)?;
@@ -82,6 +103,18 @@ pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
         text.end(colour(), args.sample.is_none())?;
     }
     out.flush()?;
+    let samples = kept.borrow();
+    if let Some(path) = &args.svg {
+        let drawing = Drawing {
+            heading: &heading,
+            scene: stage.scene(),
+            samples: &samples,
+        };
+        write_whole(path, drawing.svg().as_bytes())?;
+    }
+    if let Some(path) = &args.glb {
+        model::model(stage.scene(), &samples).write(path)?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 

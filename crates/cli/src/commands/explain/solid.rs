@@ -12,8 +12,6 @@ const MAX_TRIANGLES: usize = 500_000;
 
 /// An object as triangles.
 pub(crate) struct Solid {
-    /// Which object of the scene.
-    pub(crate) object: usize,
     pub(crate) points: Vec<Point3<f64>>,
     pub(crate) triangles: Vec<[u32; 3]>,
 }
@@ -32,7 +30,6 @@ impl Solids<'_> {
     pub(crate) fn of(&self, index: usize) -> Solid {
         let object = &self.scene.objects[index];
         let mut solid = Solid {
-            object: index,
             points: Vec::new(),
             triangles: Vec::new(),
         };

@@ -242,7 +242,9 @@ fn lines(ray: &Ray, all: &[Ray]) -> Vec<String> {
         ("ambient", &ray.ambient),
         ("measured", &ray.measured),
     ] {
-        if let Some(part) = part {
+        // Of what a surface has not there is nothing to say.
+        let black = |part: &&[Number; 3]| **part == [Number(0.0); 3] && label != "measured";
+        if let Some(part) = part.as_ref().filter(|part| !black(part)) {
             line(label, colour(part));
         }
     }
@@ -305,7 +307,8 @@ fn place(met: &Met, line: &mut impl FnMut(&str, String)) {
 }
 
 fn crossing(crossed: &Crossed) -> String {
-    let what = surface(&crossed.surface);
+    let SurfaceName { name, object, .. } = &crossed.surface;
+    let what = format!("\"{name}\" (object {object})");
     let t = short(crossed.t.0);
     match &crossed.transmission {
         None => format!("{what} at t = {t}, opaque"),
@@ -324,9 +327,11 @@ fn light(lit: &Lit, all: &[Ray], line: &mut impl FnMut(&str, String)) {
         Some("blocked") => "in its shade",
         _ => "lit",
     };
-    line(&label, format!("{kind}: {seen}, see ray {ray}"));
-    line("  diffuse", format!(" {}", colour(&lit.diffuse)));
-    line("  specular", format!("{}", colour(&lit.specular)));
+    line(&label, format!("{kind}: {seen}, ray {ray}"));
+    line(" diffuse", colour(&lit.diffuse));
+    if lit.specular != [Number(0.0); 3] {
+        line(" highlt", colour(&lit.specular));
+    }
 }
 
 /// A number and what it counts.

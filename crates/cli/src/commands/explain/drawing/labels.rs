@@ -48,7 +48,11 @@ impl Labels {
             if !inside || self.taken.iter().any(|other| overlap(&place, other)) {
                 continue;
             }
-            let crossed = self.lines.iter().filter(|line| crosses(line, &place)).count();
+            let crossed = self
+                .lines
+                .iter()
+                .filter(|line| crosses(line, &place))
+                .count();
             if best.as_ref().is_none_or(|(least, ..)| crossed < *least) {
                 best = Some((crossed, [x, y], place));
             }
@@ -71,7 +75,15 @@ fn crosses([from, to]: &[Place; 2], rectangle: &Taken) -> bool {
         from[0].max(to[0]),
         from[1].max(to[1]),
     ];
-    if !overlap(&[apart[0] - 0.1, apart[1] - 0.1, apart[2] + 0.1, apart[3] + 0.1], rectangle) {
+    if !overlap(
+        &[
+            apart[0] - 0.1,
+            apart[1] - 0.1,
+            apart[2] + 0.1,
+            apart[3] + 0.1,
+        ],
+        rectangle,
+    ) {
         return false;
     }
     let length = (to[0] - from[0]).hypot(to[1] - from[1]);
