@@ -213,7 +213,7 @@ fn surface(surface: &SurfaceName) -> String {
 /// The lines below a ray's title.
 fn lines(ray: &Ray, all: &[Ray]) -> Vec<String> {
     let mut lines = Vec::new();
-    let mut line = |label: &str, text: String| lines.push(format!("{label:<9}{text}"));
+    let mut line = |label: &str, text: String| lines.push(format!("{label:<10}{text}"));
     let end = match ray.t_max.0 {
         t if t.is_finite() => format!(" for t up to {}", short(t)),
         _ => String::new(),
@@ -330,7 +330,7 @@ fn light(lit: &Lit, all: &[Ray], line: &mut impl FnMut(&str, String)) {
     line(&label, format!("{kind}: {seen}, ray {ray}"));
     line(" diffuse", colour(&lit.diffuse));
     if lit.specular != [Number(0.0); 3] {
-        line(" highlt", colour(&lit.specular));
+        line(" specular", colour(&lit.specular));
     }
 }
 

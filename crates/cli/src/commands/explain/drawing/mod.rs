@@ -163,7 +163,7 @@ impl Drawing<'_> {
                 continue;
             };
             let around = Aabb::around(corners);
-            if around.extent().length() <= 1.3 * size {
+            if around.extent().length() <= 2.0 * size {
                 frame = frame.union(around);
             }
         }
