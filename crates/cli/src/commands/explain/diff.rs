@@ -269,9 +269,19 @@ impl<'a> Found<'a> {
         }
         for Values { field, a, b } in &self.values {
             writeln!(text, "{indent}   {field}")?;
-            writeln!(text, "{indent}      A  {a}")?;
-            writeln!(text, "{indent}      B  {b}")?;
+            writeln!(text, "{indent}      A  {}", short(a))?;
+            writeln!(text, "{indent}      B  {}", short(b))?;
         }
         Ok(text)
     }
+}
+
+/// A value in a line: what is long is cut.
+fn short(value: &Value) -> String {
+    const LONGEST: usize = 90;
+    let text = value.to_string();
+    if text.chars().count() <= LONGEST {
+        return text;
+    }
+    text.chars().take(LONGEST).chain(" …".chars()).collect()
 }

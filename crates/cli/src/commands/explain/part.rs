@@ -12,6 +12,19 @@ const OF_THE_STRUCTURE: [&str; 3] = ["nodes_visited", "tests_made", "crossed"];
 /// What follows from the ray's children: looked at once they are found to be the same.
 const OUTCOMES: [&str; 1] = ["radiance"];
 
+/// What is told first, for the rest follows from it.
+const FIRST: [&str; 9] = [
+    "kind",
+    "light",
+    "origin",
+    "direction",
+    "t_min",
+    "t_max",
+    "weight",
+    "weight_in_pixel",
+    "end",
+];
+
 /// A value that is not the same.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Differing {
@@ -92,6 +105,11 @@ fn compared([a, b]: [&Ray; 2]) -> anyhow::Result<Vec<Differing>> {
         let number = field == "ray" || field == "parent" || one.field.ends_with(".ray");
         !of_the_structure && !number
     });
+    let place = |one: &Differing| {
+        let of = FIRST.iter().position(|name| one.field == *name);
+        of.unwrap_or(FIRST.len())
+    };
+    differing.sort_by_key(place);
     Ok(differing)
 }
 
@@ -114,8 +132,39 @@ fn compare(field: &str, a: &Value, b: &Value, differing: &mut Vec<Differing>) {
         _ if a == b => {}
         _ => differing.push(Differing {
             field: field.to_owned(),
-            a: a.clone(),
-            b: b.clone(),
+            a: shortest(a),
+            b: shortest(b),
         }),
+    }
+}
+
+/// The same with numbers as short as single precision has them.
+fn shortest(value: &Value) -> Value {
+    match value {
+        Value::Array(values) => values.iter().map(shortest).collect(),
+        Value::Object(fields) => {
+            let fields = fields.iter();
+            let fields = fields.map(|(name, value)| (name.clone(), shortest(value)));
+            Value::Object(fields.collect())
+        }
+        Value::Number(number) if number.is_f64() => {
+            let single = number.as_f64().map(|x| x as f32);
+            let text = single.map(|x| x.to_string());
+            let parsed = text.and_then(|text| text.parse::<f64>().ok());
+            parsed.map_or_else(|| value.clone(), Value::from)
+        }
+        other => other.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_shown_as_single_precision_has_them() {
+        let value = serde_json::json!({ "x": [f64::from(0.1_f32), 3, "inf"] });
+        let expected = serde_json::json!({ "x": [0.1, 3, "inf"] });
+        assert_eq!(shortest(&value), expected);
     }
 }

@@ -19,6 +19,8 @@ pub(crate) struct Path {
     pub(crate) to: Option<Point3<f64>>,
     /// Whether it ends at a surface.
     pub(crate) met: bool,
+    /// The object of that surface.
+    pub(crate) object: Option<usize>,
     /// A shadow ray that something is in the way of.
     pub(crate) blocked: bool,
     /// What share of its light arrives at the pixel, of the colour of which most does.
@@ -56,6 +58,11 @@ pub(crate) fn paths(samples: &[SampleTree]) -> (Vec<Path>, usize) {
                 along,
                 to: t.map(|t| wide.at(f64::from(t))),
                 met: ray.met.is_some() || opaque.is_some(),
+                object: match (&ray.met, opaque) {
+                    (Some(place), _) => Some(place.hit.instance.index()),
+                    (None, Some(crossing)) => Some(crossing.hit.instance.index()),
+                    (None, None) => None,
+                },
                 blocked: ray.end == End::Blocked,
                 weight: ray.weight_in_pixel.max_component(),
             });

@@ -131,8 +131,4 @@ impl Solid {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(c - a)
     }
-
-    pub(crate) fn bounds(&self) -> Aabb<f64> {
-        Aabb::around(self.points.iter().copied())
-    }
 }

@@ -22,8 +22,6 @@ pub(crate) fn draw(
     eye: Point3<f64>,
     labels: &mut Labels,
 ) {
-    let ends = paths.iter().filter_map(|path| path.to.filter(|_| path.met));
-    let ends: Vec<_> = ends.collect();
     let mut names = Vec::new();
     for index in 0..solids.scene.objects.len() {
         let bounds = object_bounds(solids.scene, index);
@@ -34,8 +32,7 @@ pub(crate) fn draw(
         if solid.triangles.is_empty() {
             continue;
         }
-        let around = solid.bounds().padded(1e-4 * solids.reach.extent().length());
-        let met = ends.iter().any(|&end| around.contains(end));
+        let met = paths.iter().any(|path| path.object == Some(index));
         if met && is_convex(solids.scene, index) && is_small(&solid, view) {
             svg.polygon(
                 &hull(&solid, view),

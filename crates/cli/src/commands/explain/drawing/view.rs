@@ -133,7 +133,7 @@ mod tests {
     fn segments_are_clipped_to_the_rectangle() {
         let view = view();
         assert_eq!(
-            view.clip([0.0, 30.0], [200.0, 30.0]),
+            view.clip([-90.0, 30.0], [310.0, 30.0]),
             Some([[10.0, 30.0], [110.0, 30.0]])
         );
         assert_eq!(view.clip([0.0, 0.0], [200.0, 0.0]), None);
