@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::commands::explain::ExplainArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
 use ombra::geometry::triangle::TriangleTest;
@@ -26,6 +27,8 @@ pub(crate) enum Command {
     /// The minimal ray tracing contest of 1987: its scenes, its format, its rules
     #[command(subcommand)]
     Minray(MinrayCommand),
+    /// Tell how a pixel came about: all of its rays
+    Explain(Box<ExplainArgs>),
     /// Say what a file holds: a model, a scene, a picture
     Info(InfoArgs),
     /// List the built-in scenes
@@ -255,7 +258,7 @@ pub(crate) enum Up {
 }
 
 /// Parses the name of one of a closed set, so that help and errors list all of them.
-fn named<T: Copy + Send + Sync + 'static>(
+pub(crate) fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
     line: fn(T) -> &'static str,
@@ -270,14 +273,14 @@ fn named<T: Copy + Send + Sync + 'static>(
     })
 }
 
-fn accel(text: &str) -> Result<Accel, UnknownStructure> {
+pub(crate) fn accel(text: &str) -> Result<Accel, UnknownStructure> {
     Ok(Accel {
         kind: text.parse()?,
         alias: StructureAlias::of(text),
     })
 }
 
-fn size(text: &str) -> Result<Size, String> {
+pub(crate) fn size(text: &str) -> Result<Size, String> {
     const WANTED: &str =
         "two whole numbers from 1 to 65536 with an x between them, such as 960x540";
     const { assert!(MAX_SIDE == 65536) };

@@ -27,19 +27,23 @@ pub mod sha256;
 
 mod error;
 mod finding;
+mod glb;
 mod image;
 mod info;
 mod limits;
 mod mesh;
 mod number;
 mod source;
+mod whole;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
+pub use glb::{GlbMaterial, GlbMesh, GlbModel};
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image, read_texture,
-    write_bytes, write_image,
+    write_image,
 };
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;
 pub use mesh::{Model, ModelFormat, Part, read_model, with_normals};
+pub use whole::write_whole;

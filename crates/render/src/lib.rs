@@ -47,6 +47,8 @@ pub mod optics;
 pub mod raster;
 pub mod sampler;
 
+pub mod explain;
+
 mod exposure;
 mod integrator;
 mod render;

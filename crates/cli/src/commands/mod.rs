@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 pub(crate) mod compare;
+pub(crate) mod explain;
 pub(crate) mod info;
 pub(crate) mod lists;
 pub(crate) mod minray;

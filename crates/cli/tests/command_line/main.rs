@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod compared;
+mod explained;
 mod interrupted;
 mod lists;
 mod pictures;

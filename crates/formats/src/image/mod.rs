@@ -19,7 +19,8 @@ use crate::limits::Limits;
 
 pub use metadata::Metadata;
 pub use texture::read_texture;
-pub use write::{OutputFile, write_bytes, write_image};
+pub use write::{OutputFile, write_image};
+pub(crate) use write::{file_beside, write_error};
 
 pub use info::ImageInfo;
 pub(crate) use info::image_info;

@@ -68,28 +68,12 @@ pub fn write_image(
     OutputFile::create(path)?.finish(image, metadata)
 }
 
-/// Puts a file in its place in one go, as [`write_image`] does with a picture.
-///
-/// # Errors
-/// When the folder does not exist or cannot be written into, the path is a folder, or the file cannot
-/// be written; what was there before is still there then.
-pub fn write_bytes(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FormatError> {
-    let path = path.as_ref();
-    let write = || {
-        let mut beside = file_beside(path)?;
-        beside.write_all(bytes).map_err(write_error)?;
-        beside.persist(path).map_err(|e| write_error(e.error))?;
-        Ok(())
-    };
-    write().map_err(|e: FormatError| e.in_file(path))
-}
-
-pub(super) fn write_error(source: io::Error) -> FormatError {
+pub(crate) fn write_error(source: io::Error) -> FormatError {
     let action = "be written";
     FormatError::file(Fault::Io { action, source })
 }
 
-fn file_beside(path: &Path) -> Result<NamedTempFile, FormatError> {
+pub(crate) fn file_beside(path: &Path) -> Result<NamedTempFile, FormatError> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
 use anyhow::Context as _;
-use ombra::formats::{ImageBuffer, Metadata, write_bytes, write_image};
+use ombra::formats::{ImageBuffer, Metadata, write_image, write_whole};
 use ombra::pipeline::Cpu;
 use ombra::render::compare::{Comparison, compare, eight_bits};
 use ombra::render::raster::notice;
@@ -161,7 +161,7 @@ fn write(
     }
     let [raster, whitted, difference] = [&urls[0], &urls[1], &urls[2]].map(String::as_str);
     let page = page::html(report, raster, whitted, difference);
-    write_bytes(folder.join(PAGE), page.as_bytes())?;
+    write_whole(folder.join(PAGE), page.as_bytes())?;
     Ok(())
 }
 

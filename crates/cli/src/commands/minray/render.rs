@@ -3,7 +3,7 @@
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use ombra::formats::write_bytes;
+use ombra::formats::write_whole;
 
 use super::{contest, picture};
 use crate::args::MinrayRenderArgs;
@@ -16,7 +16,7 @@ pub(super) fn run(args: &MinrayRenderArgs) -> anyhow::Result<ExitCode> {
     let text = picture.to_string();
     match &args.output {
         None => io::stdout().lock().write_all(text.as_bytes())?,
-        Some(path) => write_bytes(path, text.as_bytes())?,
+        Some(path) => write_whole(path, text.as_bytes())?,
     }
     Ok(ExitCode::SUCCESS)
 }
