@@ -2,7 +2,7 @@
 
 use ombra_geometry::Point3;
 
-use crate::{Rgb, Texture};
+use crate::{PictureTexture, Rgb, Texture};
 
 /// A material within its scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -50,6 +50,25 @@ pub struct Material {
     /// Light of its own. A surface with any is a light source that is seen as such: it shows this
     /// and nothing else, and it hides no light from what is behind it.
     pub emission: Rgb,
+    /// A picture that `emission` is multiplied by.
+    pub emission_picture: Option<PictureTexture>,
+    /// How much of light is lost on its way behind the surface, per unit of length and colour, 0 or
+    /// more: of what comes the distance d, exp(−absorption · d) is left (Beer's law).
+    pub absorption: Rgb,
+    /// Whether only the outer side is there: rays that come from behind pass as if there were
+    /// nothing.
+    pub one_sided: bool,
+    /// Where the surface has holes.
+    pub cutout: Option<Cutout>,
+}
+
+/// Holes in a surface: it is not there where a picture's opacity is below a bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cutout {
+    /// The picture. Its colours have no part in this.
+    pub picture: PictureTexture,
+    /// The least opacity at which the surface is there.
+    pub cutoff: f32,
 }
 
 impl Default for Material {
@@ -65,6 +84,10 @@ impl Default for Material {
             index_of_refraction: 1.0,
             fresnel: false,
             emission: Rgb::BLACK,
+            emission_picture: None,
+            absorption: Rgb::BLACK,
+            one_sided: false,
+            cutout: None,
         }
     }
 }
@@ -120,6 +143,23 @@ impl Material {
     #[inline]
     pub fn is_light_source(&self) -> bool {
         !self.emission.is_black()
+    }
+
+    /// Its own light at surface parameters.
+    #[must_use]
+    #[inline]
+    pub fn emission_at(&self, uv: [f32; 2]) -> Rgb {
+        match &self.emission_picture {
+            Some(picture) => self.emission * picture.at(uv),
+            None => self.emission,
+        }
+    }
+
+    /// Whether it is there wherever its object is, and from both sides.
+    #[must_use]
+    #[inline]
+    pub const fn is_whole(&self) -> bool {
+        !self.one_sided && self.cutout.is_none()
     }
 
     /// The scattered part at a place of the surface; see [`Texture::at`].

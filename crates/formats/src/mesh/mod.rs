@@ -1,6 +1,6 @@
 //! Models: triangle meshes with materials, out of OBJ, PLY and STL files.
 
-mod finish;
+pub(crate) mod finish;
 mod mtl;
 mod normals;
 mod obj;
@@ -189,7 +189,7 @@ fn read(mut source: Source<'_>, path: &Path, limits: &Limits) -> Result<Model, F
         "ply" => ply::read(&mut source),
         "stl" => stl::read(&mut source),
         _ => Err(FormatError::file(Fault::UnknownContent {
-            known: "models with the ending obj, ply or stl (each also with .gz)",
+            known: "models with the ending obj, ply, stl, gltf or glb (each also with .gz)",
         })),
     }
 }
