@@ -146,7 +146,7 @@ fn of_scene(file: SceneFile) -> Loaded {
 fn of_gltf(file: GltfFile, hash: String) -> Loaded {
     let findings = file.findings.iter().map(ToString::to_string).collect();
     let mut scene = file.scene;
-    scene.background = BACKGROUND;
+    scene.background = BACKGROUND.into();
     Loaded {
         scene,
         picture: file.picture,
@@ -166,7 +166,7 @@ fn of_model(model: Model, options: &LoadOptions, hash: String) -> Result<Loaded,
         up: natural,
         ..Scene::default()
     };
-    scene.background = BACKGROUND;
+    scene.background = BACKGROUND.into();
     scene.materials = model.materials;
     for part in model.parts {
         let mesh = with_normals(part.mesh)?;

@@ -42,7 +42,7 @@ pub(super) fn camera(
                 .map(|aspect| above_zero(aspect, "perspective.aspectRatio"))
                 .transpose()?;
             let fov = Angle::from_radians(yfov);
-            (Projection::Perspective(Perspective { fov }), aspect)
+            (Projection::Perspective(Perspective::new(fov)), aspect)
         }
         (None, Some(orthographic)) => {
             // A negative one mirrors nothing by the specification; its size counts.

@@ -83,7 +83,7 @@ impl Placement<'_> {
         let centre = a + ((b - a) + (c - a)) * (1.0 / 3.0);
         let arriving: f64 = lights
             .iter()
-            .filter_map(|light| light.sample_li(centre.cast()))
+            .filter_map(|light| light.sample_li(centre.cast(), || [0.5; 2]))
             // Which side is seen is not known here.
             .map(|l| f64::from(l.incident.max_component()) * normal.dot(l.wi.wide()).abs())
             .filter(|x| x.is_finite())
