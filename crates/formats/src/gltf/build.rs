@@ -28,7 +28,7 @@ use crate::scene::Picture;
 
 /// Light from everywhere where the file has lights: shadows are not black in a world that scatters
 /// light.
-const AMBIENT: Rgb = Rgb::grey(0.05);
+const AMBIENT: Rgb = Rgb::grey(0.1);
 
 /// The height of a picture whose camera says how wide it is.
 const HEIGHT: f32 = 540.0;
@@ -44,6 +44,8 @@ struct Builder<'a> {
     objects_left: u64,
     /// The materials that are used, by their number; that of what has none under `None`.
     surfaces: HashMap<Option<usize>, Used>,
+    /// Of each material in the scene, whether it shines in one colour if it shines.
+    lamps: Vec<bool>,
     /// Geometries that are in the scene; `None` for those without triangles.
     geometries: HashMap<Key, Option<GeometryId>>,
     lights_of_file: u64,
@@ -86,6 +88,7 @@ pub(super) fn build(
         notes,
         objects_left: budget.objects,
         surfaces: HashMap::new(),
+        lamps: Vec::new(),
         geometries: HashMap::new(),
         lights_of_file: 0,
         cameras: 0,
@@ -163,6 +166,7 @@ impl Builder<'_> {
         let name = node.name.as_ref().or(mesh.name.as_ref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let at = format!("meshes[{index}].primitives[{number}]");
+            let called = mesh.name.as_deref();
             let used = self.surface(primitive.material, &at)?;
             if !primitive.targets.is_empty() {
                 self.notes.add(&at, "morph targets are not used");
@@ -175,7 +179,7 @@ impl Builder<'_> {
             let Some(key) = Key::of(primitive, used.set, &at, &mut self.notes)? else {
                 continue;
             };
-            let Some(geometry) = self.geometry(key, used, &at)? else {
+            let Some(geometry) = self.geometry(key, used, &at, called)? else {
                 continue;
             };
             self.objects_left = self.objects_left.checked_sub(1).ok_or_else(|| {
@@ -215,6 +219,7 @@ impl Builder<'_> {
         key: Key,
         used: Used,
         place: &str,
+        called: Option<&str>,
     ) -> Result<Option<GeometryId>, FormatError> {
         if !key.has_uv() && self.has_picture(used) {
             let message = format!(
@@ -226,7 +231,7 @@ impl Builder<'_> {
         if let Some(&known) = self.geometries.get(&key) {
             return Ok(known);
         }
-        let raw = self.reader.read(&key, place, &mut self.notes)?;
+        let raw = self.reader.read(&key, place, called, &mut self.notes)?;
         let (mesh, mended) = finish(raw)?;
         self.reader.mended.add(mended);
         let geometry = (!mesh.triangles().is_empty()).then(|| {
@@ -265,6 +270,11 @@ impl Builder<'_> {
         };
         let id = MaterialId(self.scene.materials.len() as u32);
         self.scene.materials.push(material);
+        // Unlit ones show their colour and light nothing.
+        let spec = index.map(|index| &self.document.materials[index]);
+        self.lamps.push(spec.is_some_and(|spec| {
+            spec.extensions.unlit.is_none() && spec.emissive_texture.is_none()
+        }));
         let used = Used { id, set, hidden };
         self.surfaces.insert(index, used);
         Ok(used)
@@ -329,7 +339,7 @@ impl Builder<'_> {
         for (index, object) in self.scene.objects.iter().enumerate() {
             let material = &self.scene.materials[object.material.index()];
             let mesh = mesh(&self.scene, object.geometry);
-            if material.emission.is_black() || !self.is_lamp(object.material) {
+            if material.emission.is_black() || !self.lamps[object.material.index()] {
                 continue;
             }
             let placement = &object.world_from_object;
@@ -357,14 +367,6 @@ impl Builder<'_> {
             material.reflection = Rgb::BLACK;
         }
         self.scene.lights = lights;
-    }
-
-    /// Whether a material shines in one colour by `emissiveFactor`: unlit ones show their colour and
-    /// light nothing.
-    fn is_lamp(&self, id: MaterialId) -> bool {
-        let index = self.surfaces.iter().find(|(_, used)| used.id == id);
-        let spec = index.and_then(|(index, _)| self.document.materials.get((*index)?));
-        spec.is_some_and(|spec| spec.extensions.unlit.is_none() && spec.emissive_texture.is_none())
     }
 
     fn expose(&mut self) {

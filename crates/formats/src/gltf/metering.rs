@@ -15,10 +15,10 @@ pub(super) struct Placement<'a> {
 }
 
 /// White surfaces as bright as this, 1 being white, can be seen.
-const SEEN: std::ops::RangeInclusive<f64> = 0.15..=1.5;
+const SEEN: std::ops::RangeInclusive<f64> = 0.15..=1.0;
 
 /// What a scene that cannot be seen is scaled to.
-const MIDDLE: f64 = 0.5;
+const MIDDLE: f64 = 0.6;
 
 /// About how many places are metered.
 const PLACES: usize = 4096;

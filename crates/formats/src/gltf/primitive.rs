@@ -10,7 +10,7 @@ use super::document::{Document, PrimitiveSpec};
 use super::mode::Mode;
 use super::notes::Notes;
 use super::wrong;
-use crate::error::FormatError;
+use crate::error::{FormatError, plural};
 use crate::mesh::finish::{Mended, Raw};
 
 /// What decides how a primitive looks but for its material: primitives that agree in it share one
@@ -80,11 +80,13 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The triangles of a primitive: only the vertices that they use are read.
+    /// The triangles of a primitive: only the vertices that they use are read. `called` is the name
+    /// of its mesh.
     pub(super) fn read(
         &mut self,
         key: &Key,
         place: &str,
+        called: Option<&str>,
         notes: &mut Notes,
     ) -> Result<Raw, FormatError> {
         let attribute = |name: &str| format!("{place}.attributes.{name}");
@@ -135,11 +137,14 @@ impl<'a> Reader<'a> {
             }
         }
         let all = used.all;
-        notes.add_many(
-            place,
-            "triangles with a corner that is not finite (NaN or infinite) are left out",
-            dropped,
-        );
+        if dropped > 0 {
+            let of = called.map_or(String::new(), |name| format!(" of {name:?}"));
+            let triangles = plural("triangle", dropped);
+            let message = format!(
+                "{dropped} {triangles}{of} with a corner that is not finite (NaN or infinite) left out"
+            );
+            notes.add(place, message);
+        }
         self.vertices += all.len() as u64;
         raw.positions = (all.iter())
             .map(|&v| Point3::from(positions.numbers::<3>(v)))
