@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn graphs_that_are_no_trees_are_refused() {
-        let error = |list, rest| nodes(list, rest).unwrap_err();
+        let error = |list: &str, rest: &str| nodes(list, rest).unwrap_err();
         assert_eq!(
             error(r#"{"children": [1]}, {"children": [0]}"#, ""),
             "nodes[0]: the nodes have a cycle, nodes[0] -> nodes[1] -> nodes[0]; they have to \
@@ -298,7 +298,7 @@ mod tests {
 
     #[test]
     fn transforms_that_are_none_are_refused() {
-        let error = |node| nodes(node, "").unwrap_err();
+        let error = |node: &str| nodes(node, "").unwrap_err();
         assert!(error(r#"{"rotation": [0, 0, 0, 0]}"#).contains("a unit quaternion"));
         let perspective = r#"{"matrix": [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}"#;
         assert!(error(perspective).starts_with("nodes[0].matrix: has the last row"));

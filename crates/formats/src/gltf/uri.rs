@@ -75,7 +75,7 @@ mod tests {
         assert_eq!(bytes("data:;base64,AQI="), [1, 2]);
         assert_eq!(bytes("DATA:;BASE64,AQI"), [1, 2], "without padding");
         assert_eq!(bytes("data:text/plain,a%20b"), b"a b");
-        assert_eq!(bytes("data:;base64,"), []);
+        assert!(bytes("data:;base64,").is_empty());
         assert!(data("box.bin").is_none());
         assert!(data("é").is_none());
     }

@@ -2,6 +2,7 @@
 
 mod broken;
 mod geometry;
+mod hostile;
 mod materials;
 mod placing;
 mod shining;
