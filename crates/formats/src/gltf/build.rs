@@ -312,7 +312,7 @@ impl Builder<'_> {
             )
         })?;
         let at = format!("extensions.KHR_lights_punctual.lights[{index}]");
-        let light = light::light(spec, matrix, &at, &mut self.notes)?;
+        let light = light::light(spec, matrix, &at)?;
         self.scene.lights.push(light);
         self.lights_of_file += 1;
         Ok(())

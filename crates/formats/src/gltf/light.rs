@@ -14,17 +14,11 @@ use ombra_scene::{Light, Rgb};
 
 use super::document::{LightKind, LightSpec};
 use super::node::Matrix;
-use super::notes::Notes;
 use super::wrong;
 use crate::error::FormatError;
 
 /// A light at its node, shining along −z of it.
-pub(super) fn light(
-    spec: &LightSpec,
-    matrix: &Matrix,
-    place: &str,
-    notes: &mut Notes,
-) -> Result<Light, FormatError> {
+pub(super) fn light(spec: &LightSpec, matrix: &Matrix, place: &str) -> Result<Light, FormatError> {
     let good = |x: &f32| (0.0..=f32::MAX).contains(x);
     if !spec.color.iter().all(good) {
         let message = format!("is {:?}; finite numbers of 0 or more are right", spec.color);
@@ -37,14 +31,18 @@ pub(super) fn light(
         );
         return Err(wrong(format!("{place}.intensity"), message));
     }
-    if spec.range.is_some() && spec.kind != LightKind::Directional {
-        notes.add(place, "range is not used: light goes as far as it can");
-    }
+    let falloff = match spec.range {
+        None => Falloff::InverseSquare,
+        Some(range) if range > 0.0 && range.is_finite() => Falloff::InverseSquareWithin { range },
+        Some(range) => {
+            let message = format!("is {range}; a finite number above 0 is right");
+            return Err(wrong(format!("{place}.range"), message));
+        }
+    };
     let intensity = Rgb::from(spec.color) * (spec.intensity * FRAC_1_PI);
     let column = |i: usize| Vector3::new(matrix[0][i], matrix[1][i], matrix[2][i]);
     let position = Point3::ORIGIN + column(3).cast::<f32>();
     let direction = -column(2).normalized().unwrap_or_default().cast::<f32>();
-    let falloff = Falloff::InverseSquare;
     Ok(match spec.kind {
         LightKind::Directional => Light::Directional {
             direction,

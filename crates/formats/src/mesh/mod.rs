@@ -188,6 +188,10 @@ fn read(mut source: Source<'_>, path: &Path, limits: &Limits) -> Result<Model, F
         "obj" => obj::read(&mut source, path, limits),
         "ply" => ply::read(&mut source),
         "stl" => stl::read(&mut source),
+        "gltf" | "glb" => Err(FormatError::file(Fault::Unexpected {
+            found: "a glTF file".to_owned(),
+            expected: "a model alone (glTF is a scene, which read_gltf reads)",
+        })),
         _ => Err(FormatError::file(Fault::UnknownContent {
             known: "models with the ending obj, ply, stl, gltf or glb (each also with .gz)",
         })),

@@ -76,15 +76,16 @@ fn lights_shine_along_their_node_and_fall_off() {
                 direction,
                 inner,
                 outer,
+                falloff,
                 ..
             },
         ] => {
             assert_eq!(*direction, -Vector3::Z);
+            assert_eq!(*falloff, Falloff::InverseSquareWithin { range: 9.0 });
             assert!((inner.radians() - 0.25).abs() < 1e-6 && (outer.radians() - 0.5).abs() < 1e-6);
         }
         other => panic!("{other:?}"),
     }
-    assert!(findings(&file)[0].contains("range is not used"));
 }
 
 #[test]
