@@ -223,7 +223,7 @@ fn emission(
             place,
             "emissiveTexture has other texture coordinates than the base colour: its mean is used",
         );
-        material.emission = material.emission * picture.average();
+        material.emission *= picture.average();
     }
     Ok(())
 }

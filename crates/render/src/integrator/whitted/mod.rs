@@ -221,7 +221,7 @@ impl RayProgram<Radiance> for Whitted<'_> {
         // A ray that meets the back of a surface came through what is behind it.
         if !material.absorption.is_black() && !place.is_front() {
             let way = hit.t * ray.direction.length();
-            traced.radiance = traced.radiance * material.left_after(way);
+            traced.radiance *= material.left_after(way);
         }
         Ok(())
     }
