@@ -6,7 +6,7 @@
 //! made to harm are far below: a triangle takes three bytes of indices at least, and a node ten.
 
 /// What is allowed whatever the size.
-const ALWAYS: u64 = 1 << 20;
+const ALWAYS: u64 = 1 << 18;
 
 /// What a document may make.
 #[derive(Clone, Copy, Debug)]
