@@ -19,6 +19,7 @@ use crate::limits::Limits;
 
 pub use metadata::Metadata;
 pub use texture::read_texture;
+pub(crate) use texture::{mean_of_bytes, texture_of_bytes};
 pub use write::{OutputFile, write_image};
 pub(crate) use write::{file_beside, write_error};
 

@@ -1,7 +1,7 @@
 //! Pictures for surfaces: PNG, JPEG, TGA and BMP, decoded from sRGB to linear light.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use image::{DynamicImage, ImageReader};
@@ -29,11 +29,7 @@ pub fn read_texture(path: impl AsRef<Path>, limits: &Limits) -> Result<Image, Fo
 /// The same with opacity as the channel "A".
 pub(super) fn read_png(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatError> {
     let decoded = decode(path, limits)?;
-    let alpha = decoded.color().has_alpha().then(|| {
-        let rgba = decoded.to_rgba16();
-        let alpha = rgba.pixels().map(|p| f32::from(p[3]) / 65535.0);
-        alpha.collect()
-    });
+    let alpha = decoded.color().has_alpha().then(|| alpha(&decoded));
     let (width, height, pixels) = linear(decoded);
     let image = ImageBuffer::new(width, height, pixels)?;
     match alpha {
@@ -42,13 +38,45 @@ pub(super) fn read_png(path: &Path, limits: &Limits) -> Result<ImageBuffer, Form
     }
 }
 
+/// A picture that is in memory, as a texture; with its opacity if that is asked for and there.
+pub(crate) fn texture_of_bytes(
+    bytes: &[u8],
+    with_alpha: bool,
+    limits: &Limits,
+) -> Result<Image, FormatError> {
+    let decoded = decode_bytes(bytes, limits)?;
+    let alpha = (with_alpha && decoded.color().has_alpha()).then(|| alpha(&decoded));
+    let (width, height, pixels) = linear(decoded);
+    let count = pixels.len() as u64;
+    let image = Image::new(width, height, pixels);
+    let image = image.and_then(|image| match alpha {
+        Some(alpha) => image.with_alpha(alpha),
+        None => Some(image),
+    });
+    image.ok_or_else(|| pixel_count(width, height, count))
+}
+
+/// The mean of a picture that is in memory and holds no colours: red, green and blue as they are
+/// written, 0 to 1.
+pub(crate) fn mean_of_bytes(bytes: &[u8], limits: &Limits) -> Result<[f32; 3], FormatError> {
+    let pixels = decode_bytes(bytes, limits)?.into_rgb8();
+    let count = u64::from(pixels.width()) * u64::from(pixels.height());
+    let mut sums = [0_u64; 3];
+    for pixel in pixels.pixels() {
+        for (sum, value) in sums.iter_mut().zip(pixel.0) {
+            *sum += u64::from(value);
+        }
+    }
+    Ok(sums.map(|sum| (sum as f64 / (255.0 * count.max(1) as f64)) as f32))
+}
+
 pub(super) fn open(path: &Path) -> Result<ImageReader<BufReader<File>>, FormatError> {
     let cannot = |action| move |source| FormatError::file(Fault::Io { action, source });
     let reader = ImageReader::open(path).map_err(cannot("be opened"))?;
     reader.with_guessed_format().map_err(cannot("be read"))
 }
 
-pub(super) fn name(reader: &ImageReader<BufReader<File>>) -> &'static str {
+pub(super) fn name<R: BufRead + Seek>(reader: &ImageReader<R>) -> &'static str {
     use image::ImageFormat;
     match reader.format() {
         Some(ImageFormat::Png) => "PNG",
@@ -60,16 +88,41 @@ pub(super) fn name(reader: &ImageReader<BufReader<File>>) -> &'static str {
 }
 
 fn decode(path: &Path, limits: &Limits) -> Result<DynamicImage, FormatError> {
-    let reader = open(path)?;
+    decode_twice(|| open(path), limits)
+}
+
+fn decode_bytes(bytes: &[u8], limits: &Limits) -> Result<DynamicImage, FormatError> {
+    let open = || {
+        let reader = ImageReader::new(Cursor::new(bytes));
+        reader.with_guessed_format().map_err(|source| {
+            let action = "be read";
+            FormatError::file(Fault::Io { action, source })
+        })
+    };
+    decode_twice(open, limits)
+}
+
+/// First the header alone, so that a picture that is too large is refused before it is decoded.
+fn decode_twice<R: BufRead + Seek>(
+    open: impl Fn() -> Result<ImageReader<R>, FormatError>,
+    limits: &Limits,
+) -> Result<DynamicImage, FormatError> {
+    let reader = open()?;
     let name = name(&reader);
     let (width, height) = (reader.into_dimensions()).map_err(|e| image_fault(name, &e))?;
     check_size(width.into(), height.into(), limits)?;
-    let mut reader = open(path)?;
+    let mut reader = open()?;
     let mut library_limits = image::Limits::default();
     // The most that a decoder may hold: sixteen bits in each of four channels.
     library_limits.max_alloc = Some(limits.image_pixels.saturating_mul(8));
     reader.limits(library_limits);
     reader.decode().map_err(|e| image_fault(name, &e))
+}
+
+fn alpha(decoded: &DynamicImage) -> Vec<f32> {
+    let rgba = decoded.to_rgba16();
+    let alpha = rgba.pixels().map(|p| f32::from(p[3]) / 65535.0);
+    alpha.collect()
 }
 
 fn linear(decoded: DynamicImage) -> (u32, u32, Vec<Rgb>) {

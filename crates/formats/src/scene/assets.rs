@@ -4,11 +4,13 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ombra_scene::{Image, Texture};
+use ombra_geometry::triangle::TriangleTest;
+use ombra_scene::{Image, Material, Texture};
 
 use super::build::wrong;
 use crate::error::FormatError;
 use crate::finding::Finding;
+use crate::gltf::{GltfFile, read_gltf};
 use crate::image::read_texture;
 use crate::limits::{Limits, take_pixels};
 use crate::mesh::{Model, read_model, read_model_bytes, resolve};
@@ -56,9 +58,28 @@ impl<'a> Loader<'a> {
             }
         };
         self.content.take_files(&model.files)?;
+        self.account(&model.materials)?;
+        Ok(model)
+    }
+
+    /// The scene of a glTF file.
+    pub(super) fn gltf(&mut self, name: &str, test: TriangleTest) -> Result<GltfFile, FormatError> {
+        let file = match self.assets {
+            Assets::Folder(folder) => read_gltf(path(folder, name, "model")?, test, &self.limits)?,
+            // No built-in scene has one.
+            Assets::Embedded(_) => return Err(missing(name, "model")),
+        };
+        self.content.take_files(&file.files)?;
+        self.account(&file.scene.materials)?;
+        Ok(file)
+    }
+
+    /// Takes the textures of some materials, each picture once, from what may still be loaded.
+    fn account(&mut self, materials: &[Material]) -> Result<(), FormatError> {
         let mut counted = Vec::new();
-        for material in &model.materials {
-            if let Texture::Image(image) = &material.diffuse {
+        for material in materials {
+            if let Texture::Picture(picture) = &material.diffuse {
+                let image = &picture.image;
                 let address = Arc::as_ptr(image);
                 if !counted.contains(&address) {
                     counted.push(address);
@@ -66,7 +87,7 @@ impl<'a> Loader<'a> {
                 }
             }
         }
-        Ok(model)
+        Ok(())
     }
 
     /// The SHA-256 of the scene file and all that was read after it.

@@ -67,13 +67,14 @@ pub(crate) fn local(
     material: &Material,
     sample: &Sample,
 ) -> Rgb {
+    let emission = material.emission_at(place.uv);
     if material.is_light_source() {
-        return material.emission;
+        return emission;
     }
-    let diffuse = material.diffuse_at(place.object_point, place.uv);
+    let diffuse = material.diffuse_at(place.object_point, place.uv) * place.tint;
     let mut radiance = scene.ambient * diffuse;
     if diffuse.is_black() && material.specular.is_black() {
-        return material.emission + radiance;
+        return emission + radiance;
     }
     let side = Side::of(place);
     for (index, light) in scene.lights.iter().enumerate() {
@@ -83,7 +84,7 @@ pub(crate) fn local(
             radiance += shading::scattered(material, diffuse, &side, place.wo, &light);
         }
     }
-    material.emission + radiance
+    emission + radiance
 }
 
 /// Position, normal and surface parameters (with a third of 0) at weights of the second and the third

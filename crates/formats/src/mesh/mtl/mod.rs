@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ombra_scene::{Image, Material, Rgb, Texture};
+use ombra_scene::{Image, Material, Rgb};
 
 use super::obj::Unused;
 use super::reference::resolve;
@@ -154,7 +154,7 @@ impl Library {
                 Ok(path) => {
                     let image = self.image(&path)?;
                     let factor = material.diffuse.average();
-                    material.diffuse = Texture::Image(self.tinted(image, factor)?);
+                    material.diffuse = self.tinted(image, factor)?.into();
                 }
                 Err(finding) => findings.push(finding),
             }

@@ -21,7 +21,7 @@ impl<O: Observer> Whitted<'_, O> {
         traced: &Traced,
     ) -> Result<Rgb, Exception> {
         let scene = self.world.scene();
-        let diffuse = material.diffuse_at(place.object_point, place.uv);
+        let diffuse = material.diffuse_at(place.object_point, place.uv) * place.tint;
         let mut radiance = scene.ambient * diffuse;
         self.observer.tell(|| Event::Adds(Part::Ambient(radiance)));
         if diffuse.is_black() && material.specular.is_black() {

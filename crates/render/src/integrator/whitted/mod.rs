@@ -245,23 +245,26 @@ impl<O: Observer> RayProgram<Radiance> for Whitted<'_, O> {
         traced: &mut Traced,
     ) -> Result<(), Exception> {
         let material = self.world.material(hit);
+        let place = self.world.interaction(ray, hit);
+        let emission = material.emission_at(place.uv);
         if material.is_light_source() {
-            self.observer
-                .tell(|| Event::met(hit, &self.world.interaction(ray, hit)));
-            self.observer
-                .tell(|| Event::Adds(Part::Emission(material.emission)));
+            self.observer.tell(|| Event::met(hit, &place));
+            self.observer.tell(|| Event::Adds(Part::Emission(emission)));
             self.observer.tell(|| Event::Ends(End::LightSource));
-            traced.radiance = material.emission;
+            traced.radiance = emission;
             return Ok(());
         }
-        let place = self.world.interaction(ray, hit);
         self.observer.tell(|| Event::met(hit, &place));
-        self.observer
-            .tell(|| Event::Adds(Part::Emission(material.emission)));
+        self.observer.tell(|| Event::Adds(Part::Emission(emission)));
         let side = Side::of(&place);
-        traced.radiance = material.emission
+        traced.radiance = emission
             + self.local(cx, &place, &side, material, traced)?
             + self.bounced(cx, &place, &side, material, traced)?;
+        // A ray that meets the back of a surface came through what is behind it.
+        if !material.absorption.is_black() && !place.is_front() {
+            let way = hit.t * ray.direction.length();
+            traced.radiance *= material.left_after(way);
+        }
         Ok(())
     }
 
