@@ -3,6 +3,8 @@
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
 //! ([`read_model`]: OBJ with MTL, PLY, STL), and pictures ([`read_texture`], [`read_image`]); out go
 //! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
+//! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
+//! [`scene::parse_scene`], which open no file at all.
 //!
 //! ```no_run
 //! use ombra_formats::{Limits, read_model};
@@ -28,6 +30,7 @@ mod error;
 mod finding;
 mod image;
 mod info;
+mod input;
 mod limits;
 mod mesh;
 mod number;
@@ -36,9 +39,10 @@ mod source;
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
 pub use image::{
-    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image, read_texture,
-    write_image,
+    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image,
+    read_image_bytes, read_texture, read_texture_bytes, write_image,
 };
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
+pub use input::Assets;
 pub use limits::Limits;
-pub use mesh::{Model, ModelFormat, Part, read_model, with_normals};
+pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, with_normals};
