@@ -20,19 +20,16 @@ pub type Target = (&'static str, fn(&[u8]));
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
-    ("bmp", bmp),
     ("exr", exr),
     ("gzip", gzip),
-    ("jpeg", jpeg),
     ("mtl", mtl),
+    ("netpbm", netpbm),
     ("obj", obj),
-    ("pfm", pfm),
     ("ply", ply),
     ("png", png),
-    ("ppm", ppm),
     ("scene", scene),
     ("stl", stl),
-    ("tga", tga),
+    ("texture", texture),
 ];
 
 /// What a reader may take on here: small, so that a file of a few bytes that asks for much is told
@@ -85,7 +82,8 @@ pub fn gzip(data: &[u8]) {
     };
     let assets = Assets::Embedded(&[]);
     let read = |name: &str, bytes: &[u8]| read_model_bytes(name, bytes, &assets, &limits());
-    if kind & 1 == 0 {
+    // A file that is in gzip already is unpacked once.
+    if kind & 1 == 0 || rest.starts_with(b"\x1f\x8b") {
         check_model(read("a.obj.gz", rest));
         return;
     }
@@ -143,23 +141,13 @@ pub fn scene(data: &[u8]) {
 /// Reads PNG, as a picture and as a texture.
 pub fn png(data: &[u8]) {
     let image = image("a.png", data);
-    let texture = texture("a.png", data);
+    let texture = read_as_texture("a.png", data);
     assert_eq!(image.is_some(), texture.is_some(), "two ways to one reader");
 }
 
-/// Reads JPEG, as a texture.
-pub fn jpeg(data: &[u8]) {
-    texture("a.jpg", data);
-}
-
-/// Reads TGA, as a texture.
-pub fn tga(data: &[u8]) {
-    texture("a.tga", data);
-}
-
-/// Reads BMP, as a texture.
-pub fn bmp(data: &[u8]) {
-    texture("a.bmp", data);
+/// Reads JPEG, BMP and TGA, as textures. What begins like none of them is TGA by its name.
+pub fn texture(data: &[u8]) {
+    read_as_texture("a.tga", data);
 }
 
 /// Reads OpenEXR.
@@ -167,15 +155,13 @@ pub fn exr(data: &[u8]) {
     image("a.exr", data);
 }
 
-/// Reads PFM.
-pub fn pfm(data: &[u8]) {
-    image("a.pfm", data);
-}
-
-/// Reads PPM.
-pub fn ppm(data: &[u8]) {
-    if let Some(image) = image("a.ppm", data) {
-        assert_eq!(image.non_finite(), 0);
+/// Reads PPM and PFM, whichever the first bytes say.
+pub fn netpbm(data: &[u8]) {
+    if data.starts_with(b"P6") {
+        let image = image("a.ppm", data);
+        assert_eq!(image.map_or(0, |image| image.non_finite()), 0);
+    } else {
+        image("a.pfm", data);
     }
 }
 
@@ -191,7 +177,7 @@ fn image(name: &str, data: &[u8]) -> Option<ImageBuffer> {
     Some(image)
 }
 
-fn texture(name: &str, data: &[u8]) -> Option<()> {
+fn read_as_texture(name: &str, data: &[u8]) -> Option<()> {
     let image = read_texture_bytes(name, data, &limits());
     let image = image.map_err(|error| check_error(&error)).ok()?;
     let pixels = u64::from(image.width()) * u64::from(image.height());
