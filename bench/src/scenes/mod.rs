@@ -35,7 +35,7 @@ pub fn all(settings: &Settings) -> anyhow::Result<Vec<(&'static str, Stage)>> {
 
 fn stage(mut scene: Scene, pixels: u32, accel: StructureKind) -> anyhow::Result<Stage> {
     scene.ambient = Rgb::grey(0.15);
-    scene.background = Rgb::new(0.5, 0.7, 0.9);
+    scene.background = Rgb::new(0.5, 0.7, 0.9).into();
     scene.lights = vec![
         Light::Directional {
             direction: Vector3::new(-1.0, -2.0, -0.5),
@@ -51,7 +51,7 @@ fn stage(mut scene: Scene, pixels: u32, accel: StructureKind) -> anyhow::Result<
     let fov = Angle::from_degrees(50.0);
     let camera = Camera {
         pose,
-        projection: Projection::Perspective(Perspective { fov }),
+        projection: Projection::Perspective(Perspective::new(fov)),
     };
     Ok(Stage {
         world: World::build(scene, accel)?,

@@ -26,13 +26,13 @@ pub(super) fn picture(stage: &Stage) -> Picture {
 fn trace(stage: &Stage, ray: &Ray, depth: u32) -> Rgb {
     let world = &stage.world;
     let Some(hit) = world.intersect(ray) else {
-        return world.scene().background;
+        return world.scene().background.at(ray.direction);
     };
     let material = world.material(&hit);
     let place = world.interaction(ray, &hit);
     let mut colour = shading::ambient(stage, material, &place);
     for light in &world.scene().lights {
-        if let Some(sample) = light.sample_li(place.point)
+        if let Some(sample) = light.sample_li(place.point, || [0.5; 2])
             && let Some((direct, shadow)) = shading::direct(material, &place, &sample)
             && !world.occluded(&shadow)
         {

@@ -86,7 +86,7 @@ impl RayProgram<Radiance> for Whitted<'_> {
         let place = world.interaction(ray, hit);
         *colour = shading::ambient(self.stage, material, &place);
         for light in &world.scene().lights {
-            if let Some(sample) = light.sample_li(place.point)
+            if let Some(sample) = light.sample_li(place.point, || [0.5; 2])
                 && let Some((direct, shadow)) = shading::direct(material, &place, &sample)
             {
                 let mut blocked = false;
@@ -107,10 +107,10 @@ impl RayProgram<Radiance> for Whitted<'_> {
     fn miss(
         &self,
         _cx: &mut Context<'_, Self>,
-        _ray: &Ray,
+        ray: &Ray,
         colour: &mut Rgb,
     ) -> Result<(), Exception> {
-        *colour = self.stage.world.scene().background;
+        *colour = self.stage.world.scene().background.at(ray.direction);
         Ok(())
     }
 }

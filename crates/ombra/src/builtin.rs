@@ -33,6 +33,10 @@ pub const ALL: &[Builtin] = &[
     ),
     scene!("shapes", "every shape there is, one of each"),
     scene!("teapot", "a triangle mesh: Newell's teapot on a table"),
+    scene!(
+        "card",
+        "Kensler's business card: mirror balls that spell his initials"
+    ),
 ];
 
 /// Files that built-in scenes refer to.

@@ -132,7 +132,7 @@ fn of_model(model: Model, options: &LoadOptions, hash: String) -> Result<Loaded,
         up: natural,
         ..Scene::default()
     };
-    scene.background = ombra_scene::Rgb::new(0.62, 0.67, 0.74);
+    scene.background = ombra_scene::Rgb::new(0.62, 0.67, 0.74).into();
     scene.materials = model.materials;
     for part in model.parts {
         let mesh = with_normals(part.mesh)?;

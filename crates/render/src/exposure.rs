@@ -54,6 +54,11 @@ impl<'a> Exposure<'a> {
         let [x, y, _] = launch_index;
         let place = [self.crop.x0 + x, self.crop.y0 + y];
         let numbers = Numbers::new(self.sampler, self.seed, place);
+        let numbers = if self.centred {
+            numbers.centred()
+        } else {
+            numbers
+        };
         let mut exposed = *pixel;
         for index in self.samples.clone() {
             let sample = numbers.sample(index);
@@ -66,16 +71,9 @@ impl<'a> Exposure<'a> {
 
     #[inline]
     fn ray(&self, [x, y]: [u32; 2], sample: &Sample) -> Ray {
-        let pair = |dimension| {
-            if self.centred {
-                [0.5; 2]
-            } else {
-                sample.pair(dimension)
-            }
-        };
-        let within = pair(Dimension::Pixel);
+        let within = sample.pair(Dimension::Pixel);
         let lens = if self.has_lens {
-            pair(Dimension::Lens)
+            sample.pair(Dimension::Lens)
         } else {
             [0.5; 2]
         };

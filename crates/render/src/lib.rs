@@ -25,7 +25,7 @@
 //!
 //! let camera = Camera {
 //!     pose: Pose::look_at(Point3::new(0.0, 0.0, 5.0), Point3::ORIGIN, Vector3::Y)?,
-//!     projection: Projection::Perspective(Perspective { fov: Angle::from_degrees(40.0) }),
+//!     projection: Projection::Perspective(Perspective::new(Angle::from_degrees(40.0))),
 //! };
 //! let settings = Settings { width: 33, height: 33, ..Settings::default() };
 //! let rendering = render(&world, &camera, &settings, &Cpu::all_threads(), Watch::default())?;
@@ -49,6 +49,7 @@ mod exposure;
 mod integrator;
 mod render;
 mod settings;
+mod shading;
 mod watch;
 
 pub use film::{Crop, Film};

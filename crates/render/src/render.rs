@@ -142,7 +142,9 @@ pub fn render(
         camera,
         settings,
         cpu,
-        quantity: settings.integrator.quantity(world, camera),
+        quantity: settings
+            .integrator
+            .quantity(world, camera, settings.response),
     };
     match settings.integrator {
         IntegratorKind::Whitted => job.run(watch, |exposure| {

@@ -1,5 +1,6 @@
 //! What picture to make.
 
+use crate::display::Response;
 use crate::{Crop, IntegratorKind, RenderError, SamplerKind};
 
 /// The longest side of a picture, in pixels: beyond, single precision runs out of places in a pixel.
@@ -29,7 +30,8 @@ pub struct Settings {
     /// the lens; more are spread over the area of the pixel, all counting alike (a box filter).
     pub spp: u32,
     /// How often light may bounce, 0 to [`MAX_DEPTH`]: with 0 only what camera rays meet is shaded.
-    /// Beyond the last bounce the background is seen.
+    /// What is seen beyond the last bounce is the scene's to say, see
+    /// [`Cutoff`](ombra_scene::Cutoff).
     pub max_depth: u32,
     /// Chooses the random numbers.
     pub seed: u64,
@@ -40,6 +42,8 @@ pub struct Settings {
     pub integrator: IntegratorKind,
     /// How samples are spread.
     pub sampler: SamplerKind,
+    /// How the film answers to light. Pictures of anything else have none of it.
+    pub response: Response,
 }
 
 impl Default for Settings {
@@ -54,6 +58,7 @@ impl Default for Settings {
             crop: None,
             integrator: IntegratorKind::default(),
             sampler: SamplerKind::default(),
+            response: Response::default(),
         }
     }
 }

@@ -7,6 +7,7 @@
 pub mod camera;
 pub mod light;
 
+mod background;
 mod colour;
 mod interaction;
 mod material;
@@ -14,6 +15,7 @@ mod scene;
 mod texture;
 mod world;
 
+pub use background::{Background, Cutoff};
 pub use camera::Camera;
 pub use colour::Rgb;
 pub use interaction::Interaction;

@@ -39,7 +39,8 @@ pub struct Material {
     /// passes straight through, dimmed by this at every surface, whatever the angle.
     ///
     /// Where light does not get through it is mirrored instead: at total internal reflection all of
-    /// this part, and with `fresnel` the share that the angle decides. That adds to `reflection`.
+    /// this part (see `internal_reflection`), and with `fresnel` the share that the angle decides.
+    /// That adds to `reflection`.
     pub transmission: Rgb,
     /// The index of refraction on the inner side of the surface, over that on the outer side; 1 does
     /// not bend light. Above 0.
@@ -47,8 +48,11 @@ pub struct Material {
     /// Whether the angle decides how much of the transparent part is mirrored, after Fresnel, as on
     /// real glass and water. Otherwise all of it goes through, short of total internal reflection.
     pub fresnel: bool,
-    /// Light of its own. A surface with any is a light source that is seen as such: it shows this
-    /// and nothing else, and it hides no light from what is behind it.
+    /// Whether total internal reflection mirrors what cannot leave, as in nature; otherwise that
+    /// light is lost.
+    pub internal_reflection: bool,
+    /// Light of its own, added to everything else. A surface that has nothing else is a light source
+    /// (see [`is_light_source`](Self::is_light_source)).
     pub emission: Rgb,
 }
 
@@ -64,6 +68,7 @@ impl Default for Material {
             transmission: Rgb::BLACK,
             index_of_refraction: 1.0,
             fresnel: false,
+            internal_reflection: true,
             emission: Rgb::BLACK,
         }
     }
@@ -115,11 +120,16 @@ impl Material {
         }
     }
 
-    /// Whether it is a light source.
+    /// Whether it is a lamp: it has light of its own and does nothing with that of others. A lamp
+    /// hides no light from what is behind it, so that a light can stand within.
     #[must_use]
     #[inline]
     pub fn is_light_source(&self) -> bool {
         !self.emission.is_black()
+            && self.specular.is_black()
+            && self.reflection.is_black()
+            && self.transmission.is_black()
+            && matches!(self.diffuse, Texture::Constant(diffuse) if diffuse.is_black())
     }
 
     /// The scattered part at a place of the surface; see [`Texture::at`].

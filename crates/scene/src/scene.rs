@@ -1,9 +1,9 @@
 //! The description of a scene.
 
 use ombra_accel::Geometry;
-use ombra_geometry::{GeometryId, Object as ObjectSpace, Transform, Vector3, World};
+use ombra_geometry::{GeometryId, InstanceId, Object as ObjectSpace, Transform, Vector3, World};
 
-use crate::{Camera, Light, Material, MaterialId, Rgb};
+use crate::{Background, Camera, Cutoff, Light, Material, MaterialId, Rgb};
 
 /// A thing in the scene: a geometry, where it stands, and what it is made of.
 #[derive(Clone, Debug)]
@@ -32,7 +32,9 @@ pub struct Scene {
     /// Light that comes from everywhere and meets no obstacle.
     pub ambient: Rgb,
     /// What is seen where there is nothing.
-    pub background: Rgb,
+    pub background: Background,
+    /// What is seen where rays are followed no further.
+    pub cutoff: Cutoff,
     /// The camera, if the description names one.
     pub camera: Option<Camera>,
     /// Which way is up, for a camera and lights that have to be made up. Of any length but 0.
@@ -48,7 +50,8 @@ impl Default for Scene {
             objects: Vec::new(),
             lights: Vec::new(),
             ambient: Rgb::BLACK,
-            background: Rgb::BLACK,
+            background: Background::default(),
+            cutoff: Cutoff::default(),
             camera: None,
             up: Vector3::Y,
         }
@@ -76,6 +79,16 @@ pub enum SceneError {
         object: usize,
         /// What it names.
         material: MaterialId,
+        /// How many there are.
+        count: usize,
+    },
+    /// A light belongs to an object that is not there.
+    #[error("light {light} belongs to object {object}, but there are {count}")]
+    NoSuchObject {
+        /// Which light, from 0.
+        light: usize,
+        /// What it names.
+        object: InstanceId,
         /// How many there are.
         count: usize,
     },
@@ -129,10 +142,21 @@ impl Scene {
         });
     }
 
-    /// Checks that every object names a geometry and a material that is there.
+    /// What a ray in this direction brings that is followed no further.
+    #[must_use]
+    #[inline]
+    pub fn beyond(&self, direction: Vector3) -> Rgb {
+        match self.cutoff {
+            Cutoff::Background => self.background.at(direction),
+            Cutoff::Black => Rgb::BLACK,
+        }
+    }
+
+    /// Checks that every object names a geometry and a material that is there, and every light of an
+    /// object an object.
     ///
     /// # Errors
-    /// The first object that does not.
+    /// The first object or light that does not.
     pub fn validate(&self) -> Result<(), SceneError> {
         for (index, object) in self.objects.iter().enumerate() {
             let (geometry, material) = (object.geometry, object.material);
@@ -150,6 +174,17 @@ impl Scene {
                     object: index,
                     material,
                     count,
+                });
+            }
+        }
+        for (index, light) in self.lights.iter().enumerate() {
+            if let Light::Luminous { object, .. } = light
+                && object.index() >= self.objects.len()
+            {
+                return Err(SceneError::NoSuchObject {
+                    light: index,
+                    object: *object,
+                    count: self.objects.len(),
                 });
             }
         }

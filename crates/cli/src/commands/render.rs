@@ -263,15 +263,20 @@ fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {
 fn settings(args: &RenderArgs, picture: Picture) -> Settings {
     let of_scene = picture.size.map(|[width, height]| Size { width, height });
     let Size { width, height } = args.size.or(of_scene).unwrap_or(SIZE);
+    let default = Settings::default();
     Settings {
         width,
         height,
         spp: args.spp.or(picture.spp).unwrap_or(SPP),
-        max_depth: args.max_depth,
+        max_depth: args
+            .max_depth
+            .or(picture.max_depth)
+            .unwrap_or(default.max_depth),
         seed: args.seed,
         crop: args.crop,
         integrator: args.integrator,
-        ..Settings::default()
+        sampler: picture.sampler.unwrap_or(default.sampler),
+        response: picture.response.unwrap_or(default.response),
     }
 }
 

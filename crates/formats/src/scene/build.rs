@@ -5,19 +5,22 @@ use std::fmt::Display;
 
 use ombra_accel::{Geometry, Mesh, Shapes};
 use ombra_geometry::triangle::TriangleTest;
-use ombra_geometry::{Angle, GeometryId, Object, Point3, Transform, Vector3, World};
-use ombra_scene::camera::{Orthographic, Panorama, Perspective, Pose, Projection, ThinLens};
+use ombra_geometry::{Angle, GeometryId, InstanceId, Object, Point3, Transform, Vector3, World};
+use ombra_scene::camera::{
+    Aperture, Orthographic, Panorama, Perspective, Pose, Projection, ThinLens,
+};
 use ombra_scene::light::Falloff;
-use ombra_scene::{Camera, Light, Material, MaterialId, Rgb, Scene, Texture};
+use ombra_scene::{Background, Camera, Cutoff, Light, Material, MaterialId, Rgb, Scene, Texture};
 use toml::Spanned;
 
 use super::assets::Loader;
 use super::description::{
-    CameraSpec, ColourSpec, Description, FalloffSpec, LightSpec, MaterialSpec, ObjectSpec,
-    ProjectionSpec, TextureSpec,
+    ApertureSpec, BackgroundSpec, CameraSpec, ColourSpec, CutoffSpec, Description, FalloffSpec,
+    LightSpec, MaterialSpec, ObjectSpec, ProjectionSpec, TextureSpec,
 };
 use super::picture::picture;
 use super::placement::placement;
+use super::shapes::ShapeSpec;
 use super::{Assets, SceneFile, line_of};
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
@@ -61,23 +64,25 @@ pub(super) fn build(
         models: HashMap::new(),
         findings: Vec::new(),
     };
-    builder.scene.background = colour("background", description.background)?;
+    builder.scene.background = background(description.background)?;
+    builder.scene.cutoff = description.cutoff.into();
     builder.scene.ambient = colour("ambient", description.ambient)?;
     for (name, spec) in description.materials {
         builder.at(&spec, |b, spec| b.material(name, spec))?;
     }
-    for spec in &description.lights {
-        builder.at(spec, Builder::light)?;
-    }
     for (index, spec) in description.objects.iter().enumerate() {
         builder.at(spec, |b, spec| b.object(index, spec))?;
+    }
+    // After the objects, which some lights belong to.
+    for spec in &description.lights {
+        builder.at(spec, Builder::light)?;
     }
     if let Some(spec) = &description.camera {
         builder.at(spec, Builder::camera)?;
     }
     Ok(SceneFile {
         scene: builder.scene,
-        picture: picture(&description.picture, text)?,
+        picture: picture(&description.picture, description.film.as_ref(), text)?,
         findings: builder.findings,
         hash: builder.loader.hash(),
     })
@@ -96,8 +101,11 @@ impl Builder<'_> {
 
     fn material(&mut self, name: String, spec: &MaterialSpec) -> Result<(), FormatError> {
         let default = Material::default();
+        let emission = colour("emission", spec.emission)?;
         let material = Material {
             diffuse: match &spec.diffuse {
+                // What has light of its own is a lamp, unless it says otherwise.
+                None if !emission.is_black() => Rgb::BLACK.into(),
                 None => default.diffuse,
                 Some(texture) => self.texture(texture)?,
             },
@@ -111,7 +119,10 @@ impl Builder<'_> {
                     .unwrap_or(default.index_of_refraction),
             )?,
             fresnel: spec.fresnel,
-            emission: colour("emission", spec.emission)?,
+            internal_reflection: spec
+                .internal_reflection
+                .unwrap_or(default.internal_reflection),
+            emission,
             name: name.clone(),
         };
         self.named
@@ -162,6 +173,19 @@ impl Builder<'_> {
                     falloff: spec.falloff.into(),
                 }
             }
+            LightSpec::Area(spec) => Light::Area {
+                corner: point("corner", spec.corner)?,
+                edge_u: vector("edge_u", spec.edge_u)?,
+                edge_v: vector("edge_v", spec.edge_v)?,
+                intensity: colour("intensity", spec.intensity)?,
+                falloff: spec.falloff.into(),
+            },
+            LightSpec::Luminous(spec) => Light::Luminous {
+                object: self.object_named(&spec.object)?,
+                position: point("position", spec.position)?,
+                intensity: colour("intensity", spec.intensity)?,
+                falloff: spec.falloff.into(),
+            },
         };
         self.scene.lights.push(light);
         Ok(())
@@ -178,9 +202,21 @@ impl Builder<'_> {
             .as_deref()
             .map(|m| self.material_named(m))
             .transpose()?;
-        match (&spec.shape, &spec.mesh) {
-            (Some(shape), None) => {
-                let geometry = Geometry::Shapes(Shapes(vec![shape.build()?]));
+        let shapes: Vec<_> = spec.shape.iter().chain(&spec.shapes).collect();
+        let one_word = [
+            spec.shape.is_some(),
+            !spec.shapes.is_empty(),
+            spec.mesh.is_some(),
+        ];
+        if one_word.into_iter().filter(|&is| is).count() != 1 {
+            return Err(wrong(format!(
+                "{name} needs one of these: a shape, shapes, a mesh"
+            )));
+        }
+        match &spec.mesh {
+            None => {
+                let shapes = shapes.into_iter().map(ShapeSpec::build);
+                let geometry = Geometry::Shapes(Shapes(shapes.collect::<Result<_, _>>()?));
                 let material = match material {
                     Some(material) => material,
                     None => self.default_material(),
@@ -188,8 +224,7 @@ impl Builder<'_> {
                 self.scene.place(name, geometry, material, placed);
                 Ok(())
             }
-            (None, Some(mesh)) => self.model(&name, &mesh.file, material, placed),
-            _ => Err(wrong(format!("{name} needs either a shape or a mesh"))),
+            Some(mesh) => self.model(&name, &mesh.file, material, placed),
         }
     }
 
@@ -260,6 +295,7 @@ impl Builder<'_> {
         let projection = match &spec.projection {
             ProjectionSpec::Perspective(spec) => Projection::Perspective(Perspective {
                 fov: fov(spec.fov)?,
+                shift: finite("shift", spec.shift)?,
             }),
             ProjectionSpec::ThinLens(spec) => {
                 let lens_radius = spec.lens_radius;
@@ -272,6 +308,8 @@ impl Builder<'_> {
                     fov: fov(spec.fov)?,
                     lens_radius,
                     focus_distance: above_zero("focus_distance", spec.focus_distance)?,
+                    aperture: spec.aperture.into(),
+                    shift: finite("shift", spec.shift)?,
                 })
             }
             ProjectionSpec::Orthographic(spec) => Projection::Orthographic(Orthographic {
@@ -298,9 +336,42 @@ impl Builder<'_> {
         })
     }
 
+    fn object_named(&self, name: &str) -> Result<InstanceId, FormatError> {
+        let mut named = (0..)
+            .zip(&self.scene.objects)
+            .filter(|(_, o)| o.name == name);
+        match (named.next(), named.next()) {
+            (Some((index, _)), None) => Ok(InstanceId(index)),
+            (None, _) => Err(wrong(format!(
+                "no object is named \"{name}\"; a luminous light needs the name of one"
+            ))),
+            (Some(_), Some(_)) => Err(wrong(format!(
+                "several objects are named \"{name}\"; a luminous light needs the name of one"
+            ))),
+        }
+    }
+
     fn default_material(&mut self) -> MaterialId {
         self.scene.materials.push(Material::default());
         MaterialId(self.scene.materials.len() as u32 - 1)
+    }
+}
+
+impl From<CutoffSpec> for Cutoff {
+    fn from(spec: CutoffSpec) -> Self {
+        match spec {
+            CutoffSpec::Background => Self::Background,
+            CutoffSpec::Black => Self::Black,
+        }
+    }
+}
+
+impl From<ApertureSpec> for Aperture {
+    fn from(spec: ApertureSpec) -> Self {
+        match spec {
+            ApertureSpec::Disk => Self::Disk,
+            ApertureSpec::Square => Self::Square,
+        }
     }
 }
 
@@ -315,6 +386,21 @@ impl From<FalloffSpec> for Falloff {
 
 pub(super) fn wrong(message: String) -> FormatError {
     FormatError::file(Fault::Description(message))
+}
+
+fn background(spec: BackgroundSpec) -> Result<Background, FormatError> {
+    match spec {
+        BackgroundSpec::Constant(constant) => Ok(colour("background", constant)?.into()),
+        BackgroundSpec::Sky(spec) => {
+            let up = direction("up", spec.up.unwrap_or([0.0, 1.0, 0.0]))?;
+            Ok(Background::Sky {
+                zenith: colour("zenith", spec.zenith)?,
+                horizon: colour("horizon", spec.horizon)?,
+                up: up.normalized().unwrap_or(up),
+                exponent: above_zero("exponent", spec.exponent.unwrap_or(1.0))?,
+            })
+        }
+    }
 }
 
 fn colour(what: impl Display, spec: ColourSpec) -> Result<Rgb, FormatError> {
@@ -346,7 +432,7 @@ pub(super) fn direction(what: impl Display, v: [f32; 3]) -> Result<Vector3, Form
     vector(what, v)
 }
 
-fn finite(what: impl Display, numbers: [f32; 3]) -> Result<[f32; 3], FormatError> {
+fn finite<const N: usize>(what: impl Display, numbers: [f32; N]) -> Result<[f32; N], FormatError> {
     if numbers.iter().all(|x| x.is_finite()) {
         Ok(numbers)
     } else {
@@ -356,7 +442,7 @@ fn finite(what: impl Display, numbers: [f32; 3]) -> Result<[f32; 3], FormatError
     }
 }
 
-fn above_zero(what: impl Display, number: f32) -> Result<f32, FormatError> {
+pub(super) fn above_zero(what: impl Display, number: f32) -> Result<f32, FormatError> {
     if number > 0.0 && number.is_finite() {
         Ok(number)
     } else {

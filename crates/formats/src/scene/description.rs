@@ -13,9 +13,12 @@ use super::shapes::ShapeSpec;
 pub(super) struct Description {
     #[serde(default)]
     pub(super) picture: PictureSpec,
+    pub(super) film: Option<Spanned<FilmSpec>>,
     pub(super) camera: Option<Spanned<CameraSpec>>,
     #[serde(default)]
-    pub(super) background: ColourSpec,
+    pub(super) background: BackgroundSpec,
+    #[serde(default)]
+    pub(super) cutoff: CutoffSpec,
     #[serde(default)]
     pub(super) ambient: ColourSpec,
     #[serde(default)]
@@ -32,6 +35,69 @@ pub(super) struct Description {
 pub(super) struct PictureSpec {
     pub(super) size: Option<Spanned<[u32; 2]>>,
     pub(super) spp: Option<Spanned<u32>>,
+    pub(super) max_depth: Option<Spanned<u32>>,
+    pub(super) sampler: Option<SamplerSpec>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SamplerSpec {
+    Sobol,
+    Independent,
+}
+
+/// How the film answers to light.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FilmSpec {
+    pub(super) sensitivity: Option<f32>,
+    pub(super) fog: Option<f32>,
+    pub(super) white: Option<f32>,
+    #[serde(default)]
+    pub(super) transfer: TransferSpec,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum TransferSpec {
+    #[default]
+    Srgb,
+    Linear,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum CutoffSpec {
+    #[default]
+    Background,
+    Black,
+}
+
+/// A colour, or a sky.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a background is a colour or { zenith = colour, horizon = colour, up = [x, y, z], \
+                 exponent = number }"
+)]
+pub(super) enum BackgroundSpec {
+    Constant(ColourSpec),
+    Sky(SkySpec),
+}
+
+impl Default for BackgroundSpec {
+    fn default() -> Self {
+        Self::Constant(ColourSpec::default())
+    }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SkySpec {
+    pub(super) zenith: ColourSpec,
+    pub(super) horizon: ColourSpec,
+    pub(super) up: Option<[f32; 3]>,
+    pub(super) exponent: Option<f32>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -56,7 +122,10 @@ pub(super) enum ProjectionSpec {
 
 impl Default for ProjectionSpec {
     fn default() -> Self {
-        Self::Perspective(PerspectiveSpec { fov: 45.0 })
+        Self::Perspective(PerspectiveSpec {
+            fov: 45.0,
+            shift: [0.0; 2],
+        })
     }
 }
 
@@ -65,6 +134,8 @@ impl Default for ProjectionSpec {
 pub(super) struct PerspectiveSpec {
     /// Degrees from the top to the bottom of the picture.
     pub(super) fov: f32,
+    #[serde(default)]
+    pub(super) shift: [f32; 2],
 }
 
 #[derive(Debug, Deserialize)]
@@ -73,6 +144,18 @@ pub(super) struct ThinLensSpec {
     pub(super) fov: f32,
     pub(super) lens_radius: f32,
     pub(super) focus_distance: f32,
+    #[serde(default)]
+    pub(super) aperture: ApertureSpec,
+    #[serde(default)]
+    pub(super) shift: [f32; 2],
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum ApertureSpec {
+    #[default]
+    Disk,
+    Square,
 }
 
 #[derive(Debug, Deserialize)]
@@ -99,6 +182,7 @@ pub(super) struct MaterialSpec {
     pub(super) index_of_refraction: Option<f32>,
     #[serde(default)]
     pub(super) fresnel: bool,
+    pub(super) internal_reflection: Option<bool>,
     #[serde(default)]
     pub(super) emission: ColourSpec,
 }
@@ -151,6 +235,8 @@ pub(super) enum LightSpec {
     Point(PointLightSpec),
     Directional(DirectionalLightSpec),
     Spot(SpotLightSpec),
+    Area(AreaLightSpec),
+    Luminous(LuminousLightSpec),
 }
 
 #[derive(Debug, Deserialize)]
@@ -183,6 +269,28 @@ pub(super) struct SpotLightSpec {
     pub(super) falloff: FalloffSpec,
 }
 
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AreaLightSpec {
+    pub(super) corner: [f32; 3],
+    pub(super) edge_u: [f32; 3],
+    pub(super) edge_v: [f32; 3],
+    pub(super) intensity: ColourSpec,
+    #[serde(default)]
+    pub(super) falloff: FalloffSpec,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LuminousLightSpec {
+    /// The name of an object.
+    pub(super) object: String,
+    pub(super) position: [f32; 3],
+    pub(super) intensity: ColourSpec,
+    #[serde(default)]
+    pub(super) falloff: FalloffSpec,
+}
+
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum FalloffSpec {
@@ -196,6 +304,9 @@ pub(super) enum FalloffSpec {
 pub(super) struct ObjectSpec {
     pub(super) name: Option<String>,
     pub(super) shape: Option<ShapeSpec>,
+    /// Several shapes of one material, in place of one.
+    #[serde(default)]
+    pub(super) shapes: Vec<ShapeSpec>,
     pub(super) mesh: Option<MeshSpec>,
     /// A name from `materials`; without one, a model keeps its own and a shape is light grey.
     pub(super) material: Option<String>,

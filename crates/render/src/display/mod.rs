@@ -3,6 +3,7 @@
 mod colour_map;
 mod digits;
 mod legend;
+mod response;
 
 use ombra_scene::Rgb;
 
@@ -10,14 +11,15 @@ use crate::film::{Film, Pixel};
 
 pub use colour_map::heat;
 use legend::Scale;
+pub use response::{Response, Transfer};
 
 /// What the pixels of a film mean, and so how they are shown (`display`) and written into files of
 /// floating-point numbers (`raw`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Quantity {
-    /// Linear light: shown and written as it is.
-    Light,
+    /// Linear light: shown and written as the film answers to it.
+    Light(Response),
     /// Unit normals n as (n + 1) / 2, black where nothing was hit: written as they are, and shown so
     /// that an eight-bit file holds these numbers and not their sRGB encoding.
     Normal,
@@ -48,7 +50,8 @@ const COVERED: f64 = 0.998;
 
 pub(crate) fn to_raw(film: &Film) -> Vec<Rgb> {
     match film.quantity() {
-        Quantity::Light | Quantity::Normal | Quantity::Steps => film.to_pixels(),
+        Quantity::Light(response) => developed(film, |light| response.exposed(light)),
+        Quantity::Normal | Quantity::Steps => film.to_pixels(),
         Quantity::Distance { .. } => {
             let pixels = film.pixels().iter();
             pixels
@@ -60,7 +63,7 @@ pub(crate) fn to_raw(film: &Film) -> Vec<Rgb> {
 
 pub(crate) fn to_display(film: &Film) -> Vec<Rgb> {
     match film.quantity() {
-        Quantity::Light => film.to_pixels(),
+        Quantity::Light(response) => developed(film, |light| response.shown(light)),
         Quantity::Normal => film
             .to_pixels()
             .into_iter()
@@ -73,6 +76,14 @@ pub(crate) fn to_display(film: &Film) -> Vec<Rgb> {
             .collect(),
         Quantity::Steps => steps(film),
     }
+}
+
+/// What becomes of the light in each pixel; black where there are no samples yet.
+fn developed(film: &Film, of: impl Fn(Rgb) -> Rgb) -> Vec<Rgb> {
+    let pixels = film.pixels().iter();
+    pixels
+        .map(|pixel| pixel.average().map_or(Rgb::BLACK, &of))
+        .collect()
 }
 
 /// The mean distance of the samples that hit something; `None` if none did.

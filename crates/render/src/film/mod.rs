@@ -128,6 +128,7 @@ impl Film {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::display::Response;
 
     #[test]
     fn a_pixel_without_samples_is_black_and_says_so() {
@@ -137,7 +138,7 @@ mod tests {
             x1: 3,
             y1: 1,
         };
-        let mut film = Film::new([4, 4], crop, 2, Quantity::Light).unwrap();
+        let mut film = Film::new([4, 4], crop, 2, Quantity::Light(Response::default())).unwrap();
         assert_eq!(film.done(), 0.0);
         film.pixels_mut()[1].add(Rgb::WHITE);
         assert_eq!(film.average(0, 0), None);

@@ -103,7 +103,7 @@ mod tests {
     fn the_range_spans_the_scene_as_the_camera_sees_it() {
         let bounds = Aabb::around([Point3::new(-1.0, -3.0, 0.0), Point3::new(1.0, 3.0, 0.0)]);
         let fov = Angle::from_degrees(40.0);
-        let perspective = Projection::Perspective(Perspective { fov });
+        let perspective = Projection::Perspective(Perspective::new(fov));
         let orthographic = Projection::Orthographic(Orthographic { height: 2.0 });
         let distance = |near, far| Quantity::Distance { near, far };
         assert_eq!(

@@ -5,7 +5,7 @@ use std::fmt;
 use ombra_scene::{Camera, World};
 
 use super::depth;
-use crate::display::Quantity;
+use crate::display::{Quantity, Response};
 
 /// What to measure along camera rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -59,9 +59,11 @@ impl IntegratorKind {
     }
 
     /// What its films hold.
-    pub(crate) fn quantity(self, world: &World, camera: &Camera) -> Quantity {
+    pub(crate) fn quantity(self, world: &World, camera: &Camera, response: Response) -> Quantity {
         match self {
-            Self::Whitted | Self::AmbientOcclusion => Quantity::Light,
+            Self::Whitted => Quantity::Light(response),
+            // How open a place is does not depend on the film.
+            Self::AmbientOcclusion => Quantity::Light(Response::default()),
             Self::Normals => Quantity::Normal,
             Self::Depth => depth::range(&world.finite_bounds(), camera),
             Self::Cost => Quantity::Steps,

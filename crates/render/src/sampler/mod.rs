@@ -23,6 +23,15 @@ pub enum SamplerKind {
 impl SamplerKind {
     /// All of them, the default first.
     pub const ALL: &[Self] = &[Self::Sobol, Self::Independent];
+
+    /// The name that a person types.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sobol => "sobol",
+            Self::Independent => "independent",
+        }
+    }
 }
 
 /// What a pair of numbers is for. Pairs for different ends are independent of one another.
@@ -35,11 +44,18 @@ pub enum Dimension {
     Lens,
     /// The direction over the hemisphere at the first hit.
     Hemisphere,
+    /// The place on a light that has an area.
+    Light,
 }
 
 impl Dimension {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Pixel, Self::Lens, Self::Hemisphere];
+    pub const ALL: &[Self] = &[Self::Pixel, Self::Lens, Self::Hemisphere, Self::Light];
+
+    /// Whether the only sample of a pixel takes the middle: of the pixel, the lens, the light.
+    const fn has_middle(self) -> bool {
+        !matches!(self, Self::Hemisphere)
+    }
 }
 
 /// All the numbers of one pixel.
@@ -48,6 +64,8 @@ pub struct Numbers {
     kind: SamplerKind,
     /// Seed and pixel.
     key: u64,
+    /// Of one sample a pixel, which goes through the middle of things.
+    centred: bool,
 }
 
 impl Numbers {
@@ -57,7 +75,22 @@ impl Numbers {
     pub fn new(kind: SamplerKind, seed: u64, [x, y]: [u32; 2]) -> Self {
         let pixel = u64::from(x) | u64::from(y) << 32;
         let key = mix(mix(seed) ^ pixel);
-        Self { kind, key }
+        Self {
+            kind,
+            key,
+            centred: false,
+        }
+    }
+
+    /// The same where a pixel has but one sample: it goes through the middle of the pixel, of the lens
+    /// and of lights that have an area.
+    #[must_use]
+    #[inline]
+    pub const fn centred(self) -> Self {
+        Self {
+            centred: true,
+            ..self
+        }
     }
 
     /// Those of one sample.
@@ -83,7 +116,23 @@ impl Sample {
     #[must_use]
     #[inline]
     pub fn pair(&self, dimension: Dimension) -> [f32; 2] {
+        self.of_key(dimension, hash::step(self.numbers.key, dimension as u32))
+    }
+
+    /// The same for what a sample needs more than one pair of: `branch` tells rays apart, `n` what is
+    /// done where they end.
+    #[must_use]
+    #[inline]
+    pub fn nth_pair(&self, dimension: Dimension, branch: u64, n: u32) -> [f32; 2] {
         let key = hash::step(self.numbers.key, dimension as u32);
+        self.of_key(dimension, hash::step(mix(key ^ branch), n))
+    }
+
+    #[inline]
+    fn of_key(&self, dimension: Dimension, key: u64) -> [f32; 2] {
+        if self.numbers.centred && dimension.has_middle() {
+            return [0.5; 2];
+        }
         match self.numbers.kind {
             SamplerKind::Sobol => sobol::pair(key, self.index),
             SamplerKind::Independent => independent::pair(key, self.index),

@@ -53,7 +53,7 @@ fn from_within(degrees: f32, fresnel: bool) -> Rgb {
         ],
         vec![],
     );
-    seen.background = Rgb::new(0.0, 0.0, 1.0);
+    seen.background = Rgb::new(0.0, 0.0, 1.0).into();
     let from = point(-angle.sin(), 0.0, -angle.cos());
     middle(seen, &camera_at(from, point(0.0, 0.0, 0.0), 1.0), 2)
 }
@@ -83,7 +83,7 @@ fn fresnel_shares_light_between_mirror_and_glass_and_loses_none() {
 #[test]
 fn clear_glass_in_white_surroundings_is_white() {
     let mut furnace = scene(vec![(ball(0.0, 0.0, 0.0, 1.0), clear(1.5, true))], vec![]);
-    furnace.background = Rgb::WHITE;
+    furnace.background = Rgb::WHITE.into();
     let world = build(furnace);
     let pixels = picture(&world, &flat_camera(2.2), &settings()).display();
     for pixel in pixels {

@@ -130,7 +130,7 @@ fn a_light_source_is_seen_as_such_and_is_not_shaded() {
 #[test]
 fn nothing_looks_like_the_background() {
     let mut empty = scene(vec![], vec![directional(0.0, 0.0, -1.0)]);
-    empty.background = RED;
+    empty.background = RED.into();
     assert_eq!(middle(empty, &flat_camera(1.0), 8), RED);
 }
 

@@ -48,7 +48,7 @@ fn facing_mirrors() -> Scene {
         vec![],
     );
     seen.ambient = Rgb::WHITE;
-    seen.background = Rgb::grey(100.0);
+    seen.background = Rgb::grey(100.0).into();
     seen
 }
 

@@ -73,7 +73,7 @@ fn assert_no_dark_pixel(
         let middle: Point3 = transform.point(centre.wide()).cast();
         let camera = camera(middle, scale);
         let mut lit = Scene {
-            background: Rgb::WHITE,
+            background: Rgb::WHITE.into(),
             lights: vec![directional(-VIEW.x, -VIEW.y, -VIEW.z)],
             ..Scene::default()
         };

@@ -39,7 +39,7 @@ fn everything() -> Scene {
     let moved = Transform::translation(Vector3::new(2.5, 0.5, 0.8));
     all.add("bubble", ball(0.0, 0.0, 0.0, 0.7), glass, moved);
     all.ambient = Rgb::grey(0.1);
-    all.background = Rgb::new(0.3, 0.5, 0.9);
+    all.background = Rgb::new(0.3, 0.5, 0.9).into();
     all
 }
 

@@ -92,7 +92,7 @@ pub(crate) fn camera_at(from: Point3, to: Point3, degrees: f32) -> Camera {
     let fov = Angle::from_degrees(degrees);
     Camera {
         pose: Pose::look_at(from, to, Vector3::new(0.1, 1.0, 0.2)).unwrap(),
-        projection: Projection::Perspective(Perspective { fov }),
+        projection: Projection::Perspective(Perspective::new(fov)),
     }
 }
 

@@ -6,7 +6,7 @@ use ombra_geometry::Angle;
 use ombra_pipeline::Cpu;
 use ombra_render::{Film, IntegratorKind, Progress, RenderError, Settings, Watch, render};
 use ombra_scene::World;
-use ombra_scene::camera::{Projection, ThinLens};
+use ombra_scene::camera::{Aperture, Projection, ThinLens};
 
 use crate::stage::*;
 
@@ -143,6 +143,8 @@ fn a_camera_without_rays_is_an_error_that_names_the_first_pixel() {
         fov: Angle::from_degrees(f32::NAN),
         lens_radius: 0.1,
         focus_distance: 1.0,
+        aperture: Aperture::Disk,
+        shift: [0.0; 2],
     });
     let error = render(&world(), &camera, &settings(), &cpu(), Watch::default()).unwrap_err();
     let RenderError::Launch(error) = error else {

@@ -16,7 +16,7 @@ pub use orthographic::Orthographic;
 pub use panorama::Panorama;
 pub use perspective::Perspective;
 pub use pose::{Pose, PoseError};
-pub use thin_lens::ThinLens;
+pub use thin_lens::{Aperture, ThinLens};
 
 /// How a camera makes a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,7 +115,7 @@ impl Camera {
         let pose = Pose::look_at(position, centre, up).unwrap_or_default();
         Self {
             pose,
-            projection: Projection::Perspective(Perspective { fov }),
+            projection: Projection::Perspective(Perspective::new(fov)),
         }
     }
 }

@@ -10,12 +10,29 @@ use ombra_geometry::{Angle, Point3, Vector3};
 pub struct Perspective {
     /// The angle between the top and the bottom of the picture, above 0° and below 180°.
     pub fov: Angle,
+    /// By how much the picture's cut-out of the plane of the image moves to the right and down, in
+    /// widths and heights of the picture: the shift lens of architects, which keeps verticals
+    /// vertical.
+    pub shift: [f32; 2],
 }
 
 impl Perspective {
+    /// Without a shift.
+    #[must_use]
+    pub const fn new(fov: Angle) -> Self {
+        Self {
+            fov,
+            shift: [0.0; 2],
+        }
+    }
+
     #[inline]
     pub(super) fn local_ray(&self, aspect: f32, [px, py]: [f32; 2]) -> (Point3, Vector3) {
-        (Point3::ORIGIN, image_point(self.fov, aspect, [px, py]))
+        let [dx, dy] = self.shift;
+        (
+            Point3::ORIGIN,
+            image_point(self.fov, aspect, [px + dx, py + dy]),
+        )
     }
 }
 
@@ -36,13 +53,22 @@ mod tests {
 
     #[test]
     fn the_corners_are_where_the_lecture_has_them() {
-        let camera = Perspective {
-            fov: Angle::from_degrees(90.0),
-        };
+        let camera = Perspective::new(Angle::from_degrees(90.0));
         let at = |screen| camera.local_ray(2.0, screen).1;
         assert_eq!(at([0.5, 0.5]), -Vector3::Z);
         let close = |a: Vector3, b: Vector3| (a - b).length() < 1e-6;
         assert!(close(at([0.0, 0.0]), Vector3::new(-2.0, 1.0, -1.0)));
         assert!(close(at([1.0, 1.0]), Vector3::new(2.0, -1.0, -1.0)));
+    }
+
+    #[test]
+    fn a_shift_of_half_a_height_looks_down_from_the_horizon() {
+        let camera = Perspective {
+            shift: [0.0, 0.5],
+            ..Perspective::new(Angle::from_degrees(90.0))
+        };
+        assert_eq!(camera.local_ray(1.0, [0.5, 0.0]).1, -Vector3::Z);
+        let lowest = camera.local_ray(1.0, [0.5, 1.0]).1;
+        assert!((lowest - Vector3::new(0.0, -2.0, -1.0)).length() < 1e-6);
     }
 }

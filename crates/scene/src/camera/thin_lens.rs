@@ -15,14 +15,33 @@ pub struct ThinLens {
     pub lens_radius: f32,
     /// The distance of the plane that is sharp, along the direction of the camera. Above 0.
     pub focus_distance: f32,
+    /// The outline of the lens.
+    pub aperture: Aperture,
+    /// See [`Perspective::shift`](super::Perspective::shift).
+    pub shift: [f32; 2],
+}
+
+/// The outline of a lens, which is that of bright points out of focus.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Aperture {
+    /// A disk of the lens's radius.
+    #[default]
+    Disk,
+    /// A square whose sides are twice the lens's radius, upright in the picture.
+    Square,
 }
 
 impl ThinLens {
     #[inline]
     pub(super) fn local_ray(&self, aspect: f32, sample: CameraSample) -> (Point3, Vector3) {
-        let [x, y] = concentric_disk(sample.lens);
+        let [x, y] = match self.aperture {
+            Aperture::Disk => concentric_disk(sample.lens),
+            Aperture::Square => sample.lens.map(|x| 2.0 * x - 1.0),
+        };
         let on_lens = Vector3::new(x, y, 0.0) * self.lens_radius;
-        let in_focus = image_point(self.fov, aspect, sample.screen) * self.focus_distance;
+        let [px, py] = sample.screen;
+        let [dx, dy] = self.shift;
+        let in_focus = image_point(self.fov, aspect, [px + dx, py + dy]) * self.focus_distance;
         (Point3::ORIGIN + on_lens, in_focus - on_lens)
     }
 }
@@ -53,6 +72,8 @@ mod tests {
             fov: Angle::from_degrees(60.0),
             lens_radius: 0.3,
             focus_distance: 4.0,
+            aperture: Aperture::Disk,
+            shift: [0.0; 2],
         };
         let meet = |lens| {
             let screen = [0.2, 0.7];

@@ -145,6 +145,7 @@ impl Definition {
                 1.0
             },
             fresnel: matches!(model, 4 | 5 | 7 | 9),
+            internal_reflection: plain.internal_reflection,
             emission: self.emission.unwrap_or(Rgb::BLACK),
         }
     }

@@ -2,23 +2,22 @@
 
 use ombra_pipeline::{Context, Exception};
 use ombra_scene::light::LightSample;
-use ombra_scene::{Interaction, Light, Material, Rgb};
+use ombra_scene::{Interaction, Material, Rgb};
 
-use super::Whitted;
-use super::shadow::{Filter, Shadow};
-use super::side::Side;
-use crate::optics;
+use super::shadow::{Shade, Shadow};
+use super::{Traced, Whitted};
+use crate::sampler::Dimension;
+use crate::shading::{self, Side};
 
 impl Whitted<'_> {
-    /// The ambient part, and of each light that is not in the shade the diffuse and the specular
-    /// part: kd (N · L) + ks (R · V)ⁿ (Phong, "Illumination for Computer Generated Pictures", CACM
-    /// 18(6), 1975).
+    /// The ambient part, and what is scattered of each light that is not in the shade.
     pub(super) fn local(
         &self,
         cx: &mut Context<'_, Self>,
         place: &Interaction,
         side: &Side,
         material: &Material,
+        traced: &Traced,
     ) -> Result<Rgb, Exception> {
         let scene = self.world.scene();
         let diffuse = material.diffuse_at(place.object_point, place.uv);
@@ -26,38 +25,17 @@ impl Whitted<'_> {
         if diffuse.is_black() && material.specular.is_black() {
             return Ok(radiance);
         }
-        for light in &scene.lights {
-            radiance += self.lit(cx, place, side, material, diffuse, light)?;
+        for (index, light) in scene.lights.iter().enumerate() {
+            let xi = || traced.pair(Dimension::Light, index);
+            let Some(light) = light.sample_li(place.point, xi) else {
+                continue;
+            };
+            let scattered = shading::scattered(material, diffuse, side, place.wo, &light);
+            if !scattered.is_black() {
+                radiance += scattered * self.unshadowed(cx, place, &light)?;
+            }
         }
         Ok(radiance)
-    }
-
-    /// What one light adds.
-    fn lit(
-        &self,
-        cx: &mut Context<'_, Self>,
-        place: &Interaction,
-        side: &Side,
-        material: &Material,
-        diffuse: Rgb,
-        light: &Light,
-    ) -> Result<Rgb, Exception> {
-        let Some(light) = light.sample_li(place.point) else {
-            return Ok(Rgb::BLACK);
-        };
-        let cosine = side.shading_normal.dot(light.wi);
-        if !(cosine > 0.0 && side.is_in_front(light.wi)) {
-            return Ok(Rgb::BLACK);
-        }
-        let mut scattered = diffuse * cosine;
-        if !material.specular.is_black() {
-            let highlight = optics::reflected(light.wi, side.shading_normal).dot(place.wo);
-            scattered += material.specular * highlight.max(0.0).powf(material.shininess);
-        }
-        if scattered.is_black() {
-            return Ok(Rgb::BLACK);
-        }
-        Ok(scattered * light.incident * self.unshadowed(cx, place, &light)?)
     }
 
     /// How much of a light reaches a place.
@@ -67,12 +45,17 @@ impl Whitted<'_> {
         place: &Interaction,
         light: &LightSample,
     ) -> Result<Rgb, Exception> {
-        let ray = place.spawn_within(light.wi, light.distance);
-        let mut filter = Filter::default();
+        let mut shade = Shade::of(light);
+        // The light of an object may be met anywhere on its surface.
+        let distance = match light.object {
+            Some(_) => f32::INFINITY,
+            None => light.distance,
+        };
+        let ray = place.spawn_within(light.wi, distance);
         // A place at the end of the number range has no ray that leaves it.
         if ray.is_valid() {
-            cx.trace::<Shadow>(&ray, &mut filter)?;
+            cx.trace::<Shadow>(&ray, &mut shade)?;
         }
-        Ok(filter.transmitted())
+        Ok(shade.transmitted())
     }
 }

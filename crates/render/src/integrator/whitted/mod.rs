@@ -2,7 +2,6 @@
 
 mod local;
 mod shadow;
-mod side;
 #[cfg(test)]
 mod tests;
 
@@ -13,19 +12,21 @@ use ombra_scene::{Interaction, Material, Rgb, World};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 use crate::optics;
-use shadow::{Filter, Shadow};
-use side::Side;
+use crate::sampler::{Dimension, Sample};
+use crate::shading::Side;
+use shadow::{Shade, Shadow};
 
 /// trace(point, direction, step) of the lecture, after Whitted, "An Improved Illumination Model for
 /// Shaded Display", CACM 23(6), 1980:
 ///
-/// - beyond the last step, and where there is nothing: the background;
+/// - beyond the last step, and where there is nothing: the background (but see
+///   [`Cutoff`](ombra_scene::Cutoff));
 /// - a light source: its emission, and nothing else;
-/// - any other surface: Phong's local term, plus what is seen in the mirror direction, plus what is
-///   seen through the surface, each by a ray with one step more.
+/// - any other surface: its emission, if it has any, Phong's local term, what is seen in the mirror
+///   direction, and what is seen through the surface, the last two by a ray with one step more.
 ///
-/// A ray of whose light less than a thousandth arrives at the pixel is taken to see the background,
-/// like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
+/// A ray of whose light less than a thousandth arrives at the pixel is taken to see what is seen
+/// beyond the last step, like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
 /// Computer Graphics and Applications 3(8), 1983. In glass every ray becomes two, so without this the
 /// number of rays doubles with every step. With it, where surfaces are grey and pass on no more light
 /// than arrives (reflection + transmission ≤ 1), the rays of one step have shares that add up to no
@@ -56,6 +57,11 @@ impl RayType for Radiance {
 /// What a radiance ray carries.
 #[derive(Clone, Copy)]
 struct Traced {
+    /// The random numbers of the sample that it belongs to.
+    sample: Sample,
+    /// Which ray of the sample it is: the camera's is 1, the mirrored child of n is 2 n, the other
+    /// one 2 n + 1. Beyond 63 steps numbers repeat, which only ties some shadows to others.
+    branch: u64,
     /// How often its light was reflected or refracted on the way.
     step: u32,
     /// What share of its light arrives at the pixel, at most: the product of what the surfaces on
@@ -63,6 +69,42 @@ struct Traced {
     importance: f32,
     /// What it brought.
     radiance: Rgb,
+}
+
+impl Traced {
+    /// The ray of a camera.
+    const fn camera(sample: Sample) -> Self {
+        Self {
+            sample,
+            branch: 1,
+            step: 0,
+            importance: 1.0,
+            radiance: Rgb::BLACK,
+        }
+    }
+
+    /// The ray in the mirror direction.
+    const fn mirrored(&self) -> Self {
+        Self {
+            branch: self.branch << 1,
+            step: self.step + 1,
+            ..*self
+        }
+    }
+
+    /// The ray through the surface.
+    const fn through(&self) -> Self {
+        Self {
+            branch: self.branch << 1 | 1,
+            step: self.step + 1,
+            ..*self
+        }
+    }
+
+    /// Two random numbers for the `n`-th of a kind where this ray ends.
+    fn pair(&self, dimension: Dimension, n: usize) -> [f32; 2] {
+        self.sample.nth_pair(dimension, self.branch, n as u32)
+    }
 }
 
 impl<'a> Whitted<'a> {
@@ -80,18 +122,11 @@ impl<'a> Whitted<'a> {
         &self,
         cx: &mut Context<'_, Self>,
         ray: &Ray,
-        step: u32,
-        importance: f32,
+        mut traced: Traced,
     ) -> Result<Rgb, Exception> {
-        let background = self.world.scene().background;
-        if step > self.max_depth || importance < self.least_importance {
-            return Ok(background);
+        if traced.step > self.max_depth || traced.importance < self.least_importance {
+            return Ok(self.world.scene().beyond(ray.direction));
         }
-        let mut traced = Traced {
-            step,
-            importance,
-            radiance: background,
-        };
         cx.trace::<Radiance>(ray, &mut traced)?;
         Ok(traced.radiance)
     }
@@ -111,18 +146,19 @@ impl<'a> Whitted<'a> {
             let eta = side.eta(material.index_of_refraction);
             let through = side.refracted(place.wo, eta);
             let share = match through {
-                None => 1.0,
+                None if material.internal_reflection => 1.0,
+                None => 0.0,
                 Some(_) if material.fresnel => optics::fresnel(side.cosine(place.wo), eta),
                 Some(_) => 0.0,
             };
             mirrored += material.transmission * share;
             if let Some(direction) = through {
                 let weight = material.transmission * (1.0 - share);
-                radiance += self.weighted(cx, place.spawn(direction), weight, traced)?;
+                radiance += self.weighted(cx, place.spawn(direction), weight, traced.through())?;
             }
         }
         let direction = side.reflected(place.wo);
-        radiance += self.weighted(cx, place.spawn(direction), mirrored, traced)?;
+        radiance += self.weighted(cx, place.spawn(direction), mirrored, traced.mirrored())?;
         Ok(radiance)
     }
 
@@ -131,14 +167,22 @@ impl<'a> Whitted<'a> {
         cx: &mut Context<'_, Self>,
         ray: Ray,
         weight: Rgb,
-        traced: &Traced,
+        child: Traced,
     ) -> Result<Rgb, Exception> {
         // A place at the end of the number range has no ray that leaves it.
         if weight.is_black() || !ray.is_valid() {
             return Ok(Rgb::BLACK);
         }
-        let importance = traced.importance * weight.max_component();
-        Ok(weight * self.radiance(cx, &ray, traced.step + 1, importance)?)
+        let importance = child.importance * weight.max_component();
+        Ok(weight
+            * self.radiance(
+                cx,
+                &ray,
+                Traced {
+                    importance,
+                    ..child
+                },
+            )?)
     }
 }
 
@@ -170,8 +214,19 @@ impl RayProgram<Radiance> for Whitted<'_> {
         }
         let place = self.world.interaction(ray, hit);
         let side = Side::of(&place);
-        traced.radiance = self.local(cx, &place, &side, material)?
+        traced.radiance = material.emission
+            + self.local(cx, &place, &side, material, traced)?
             + self.bounced(cx, &place, &side, material, traced)?;
+        Ok(())
+    }
+
+    fn miss(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        ray: &Ray,
+        traced: &mut Traced,
+    ) -> Result<(), Exception> {
+        traced.radiance = self.world.scene().background.at(ray.direction);
         Ok(())
     }
 }
@@ -180,17 +235,43 @@ impl RayProgram<Shadow> for Whitted<'_> {
     /// What is opaque ends the ray, what is transparent dims the light, and a light source lets it
     /// pass: else a lamp would put itself into the shade.
     #[inline]
-    fn any_hit(&self, _ray: &Ray, hit: &Hit, filter: &mut Filter) -> AnyHit {
+    fn any_hit(&self, _ray: &Ray, hit: &Hit, shade: &mut Shade) -> AnyHit {
+        if shade.looks_for_object() {
+            return AnyHit::Accept;
+        }
         let material = self.world.material(hit);
         if material.is_light_source() {
             AnyHit::Ignore
         } else if material.transmission.is_black() {
-            filter.block();
+            shade.block();
             AnyHit::Terminate
         } else {
-            filter.dim(material.transmission);
+            shade.dim(material.transmission);
             AnyHit::Ignore
         }
+    }
+
+    #[inline]
+    fn closest_hit(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        _ray: &Ray,
+        hit: &Hit,
+        shade: &mut Shade,
+    ) -> Result<(), Exception> {
+        shade.met(Some(hit.instance));
+        Ok(())
+    }
+
+    #[inline]
+    fn miss(
+        &self,
+        _cx: &mut Context<'_, Self>,
+        _ray: &Ray,
+        shade: &mut Shade,
+    ) -> Result<(), Exception> {
+        shade.met(None);
+        Ok(())
     }
 }
 
@@ -198,8 +279,9 @@ impl RayGeneration for Whitted<'_> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
-        self.exposure.expose(cx.launch_index(), pixel, |ray, _| {
-            self.radiance(cx, ray, 0, 1.0)
-        })
+        self.exposure
+            .expose(cx.launch_index(), pixel, |ray, sample| {
+                self.radiance(cx, ray, Traced::camera(*sample))
+            })
     }
 }

@@ -1,26 +1,53 @@
 //! Shadow rays: how much of a light gets through.
 
+use ombra_geometry::InstanceId;
 use ombra_pipeline::RayType;
 use ombra_scene::Rgb;
+use ombra_scene::light::LightSample;
 
 /// The rays from a place to a light.
 pub(super) enum Shadow {}
 
 impl RayType for Shadow {
-    type Payload = Filter;
+    type Payload = Shade;
     const NAME: &'static str = "shadow";
 }
 
 /// What the surfaces on the way to a light leave of it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Filter {
+pub(super) struct Shade {
+    /// The object that must be met first, if the light is one of an object.
+    object: Option<InstanceId>,
     blocked: bool,
     /// One for each transparent surface, in the order of the traversal. That order differs between
     /// structures and a product of rounded factors depends on it, so they are multiplied in the end.
     transmissions: Vec<Rgb>,
 }
 
-impl Filter {
+impl Shade {
+    /// Nothing is on the way yet.
+    #[inline]
+    pub(super) fn of(light: &LightSample) -> Self {
+        Self {
+            object: light.object,
+            ..Self::default()
+        }
+    }
+
+    /// Whether it matters what is met first, and not what is on the way.
+    #[inline]
+    pub(super) const fn looks_for_object(&self) -> bool {
+        self.object.is_some()
+    }
+
+    /// What was met first, or that nothing was.
+    #[inline]
+    pub(super) fn met(&mut self, first: Option<InstanceId>) {
+        if self.object.is_some() && self.object != first {
+            self.block();
+        }
+    }
+
     /// Nothing gets through.
     #[inline]
     pub(super) const fn block(&mut self) {
@@ -69,9 +96,9 @@ mod tests {
             })
             .collect();
         let through = |order: &mut dyn Iterator<Item = &Rgb>| {
-            let mut filter = Filter::default();
-            order.for_each(|&surface| filter.dim(surface));
-            filter.transmitted()
+            let mut shade = Shade::default();
+            order.for_each(|&surface| shade.dim(surface));
+            shade.transmitted()
         };
         let forward = through(&mut surfaces.iter());
         assert_eq!(forward, through(&mut surfaces.iter().rev()));
@@ -81,10 +108,25 @@ mod tests {
 
     #[test]
     fn all_light_gets_through_nothing_and_none_through_a_wall() {
-        assert_eq!(Filter::default().transmitted(), Rgb::WHITE);
-        let mut filter = Filter::default();
-        filter.dim(Rgb::WHITE);
-        filter.block();
-        assert_eq!(filter.transmitted(), Rgb::BLACK);
+        assert_eq!(Shade::default().transmitted(), Rgb::WHITE);
+        let mut shade = Shade::default();
+        shade.dim(Rgb::WHITE);
+        shade.block();
+        assert_eq!(shade.transmitted(), Rgb::BLACK);
+    }
+
+    #[test]
+    fn the_light_of_an_object_is_hidden_by_whatever_is_met_before() {
+        let toward = |first| {
+            let mut shade = Shade {
+                object: Some(InstanceId(2)),
+                ..Shade::default()
+            };
+            shade.met(first);
+            shade.transmitted()
+        };
+        assert_eq!(toward(Some(InstanceId(2))), Rgb::WHITE);
+        assert_eq!(toward(Some(InstanceId(1))), Rgb::BLACK);
+        assert_eq!(toward(None), Rgb::BLACK);
     }
 }

@@ -16,7 +16,7 @@ const SIDE: u32 = 16;
 /// black and white, and the background is white.
 fn nested_spheres() -> World {
     let mut scene = Scene {
-        background: Rgb::WHITE,
+        background: Rgb::WHITE.into(),
         ambient: Rgb::WHITE,
         ..Scene::default()
     };
@@ -48,9 +48,7 @@ fn camera() -> Camera {
     let eye = Point3::new(1.0, 0.7, 4.0);
     Camera {
         pose: Pose::look_at(eye, Point3::ORIGIN, Vector3::Y).unwrap(),
-        projection: Projection::Perspective(Perspective {
-            fov: Angle::from_degrees(32.0),
-        }),
+        projection: Projection::Perspective(Perspective::new(Angle::from_degrees(32.0))),
     }
 }
 

@@ -11,11 +11,11 @@ use crate::optics;
 /// Of the two normals the true one decides what is in front of the surface and what behind it, so
 /// that no light leaks through; the shading normal decides everything else.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
+pub(crate) struct Side {
     /// The true normal.
     true_normal: Normal3,
     /// The normal to shade with, on the same side.
-    pub(super) shading_normal: Normal3,
+    pub(crate) shading_normal: Normal3,
     /// The normal of mirrors and lenses: the shading normal, or where that faces away from the
     /// viewer the nearest one that does not.
     optical_normal: Normal3,
@@ -24,7 +24,7 @@ pub(super) struct Side {
 
 impl Side {
     #[inline]
-    pub(super) fn of(place: &Interaction) -> Self {
+    pub(crate) fn of(place: &Interaction) -> Self {
         let outside = place.is_front();
         let towards_viewer = |n: Normal3| if outside { n } else { -n };
         let true_normal = towards_viewer(place.normal);
@@ -46,13 +46,13 @@ impl Side {
 
     /// Whether a direction leads away from the surface on this side.
     #[inline]
-    pub(super) fn is_in_front(&self, direction: Vector3) -> bool {
+    pub(crate) fn is_in_front(&self, direction: Vector3) -> bool {
         self.true_normal.dot(direction) > 0.0
     }
 
     /// The index of refraction on this side over that on the other one.
     #[inline]
-    pub(super) fn eta(&self, index_of_refraction: f32) -> f32 {
+    pub(crate) fn eta(&self, index_of_refraction: f32) -> f32 {
         if self.outside {
             1.0 / index_of_refraction
         } else {
@@ -62,13 +62,13 @@ impl Side {
 
     /// The cosine of the angle at which the viewer looks at the surface.
     #[inline]
-    pub(super) fn cosine(&self, wo: Vector3) -> f32 {
+    pub(crate) fn cosine(&self, wo: Vector3) -> f32 {
         self.optical_normal.dot(wo)
     }
 
     /// Where the mirror image is seen: always in front of the surface.
     #[inline]
-    pub(super) fn reflected(&self, wo: Vector3) -> Vector3 {
+    pub(crate) fn reflected(&self, wo: Vector3) -> Vector3 {
         let direction = optics::reflected(wo, self.optical_normal);
         let in_front = self.true_normal.dot(direction) >= 0.0;
         // Where an interpolated normal sends the ray into the surface it is mirrored out again.
@@ -82,7 +82,7 @@ impl Side {
     /// Where the viewer looks to through the surface: always behind it; `None` at total internal
     /// reflection.
     #[inline]
-    pub(super) fn refracted(&self, wo: Vector3, eta: f32) -> Option<Vector3> {
+    pub(crate) fn refracted(&self, wo: Vector3, eta: f32) -> Option<Vector3> {
         let direction = optics::refracted(wo, self.optical_normal, eta)?;
         let behind = self.true_normal.dot(direction) <= 0.0;
         Some(if behind {
