@@ -218,7 +218,7 @@ pub enum Fault {
         folder: PathBuf,
     },
     /// A scene file that does not say what a scene file says.
-    #[error("{}", one_line(.0))]
+    #[error("{}", shown(.0))]
     Description(String),
     /// A mesh that does not hold together.
     #[error(transparent)]
@@ -348,6 +348,16 @@ pub(crate) fn one_line(text: &str) -> String {
     line
 }
 
+/// A text out of a file in a message: on one line, and cut where it is longer than any that a person
+/// would give.
+pub(crate) fn shown(text: &str) -> String {
+    const MOST: usize = 400;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => one_line(&text[..end]) + "...",
+        None => one_line(text),
+    }
+}
+
 pub(crate) fn plural(word: &str, count: u64) -> String {
     if count == 1 {
         word.to_owned()
@@ -360,7 +370,7 @@ fn ending_or_none(ending: &str) -> String {
     if ending.is_empty() {
         "a file without an ending".to_owned()
     } else {
-        format!("a .{} file", one_line(ending))
+        format!("a .{} file", shown(ending))
     }
 }
 

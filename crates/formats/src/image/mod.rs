@@ -14,7 +14,7 @@ use std::path::Path;
 use ombra_scene::Rgb;
 use serde::Serialize;
 
-use crate::error::{Fault, FormatError, one_line};
+use crate::error::{Fault, FormatError, shown};
 use crate::input::Input;
 use crate::limits::Limits;
 
@@ -223,6 +223,6 @@ fn check_size(width: u64, height: u64, limits: &Limits) -> Result<(), FormatErro
 }
 
 fn image_fault(format: &'static str, error: &dyn std::fmt::Display) -> FormatError {
-    let message = one_line(&error.to_string());
+    let message = shown(&error.to_string());
     FormatError::file(Fault::Image { format, message })
 }
