@@ -352,10 +352,12 @@ pub(crate) fn one_line(text: &str) -> String {
 /// would give.
 pub(crate) fn shown(text: &str) -> String {
     const MOST: usize = 400;
-    match text.char_indices().nth(MOST) {
-        Some((end, _)) => one_line(&text[..end]) + "...",
-        None => one_line(text),
+    let mut line = one_line(text);
+    if let Some((end, _)) = line.char_indices().nth(MOST) {
+        line.truncate(end);
+        line.push_str("...");
     }
+    line
 }
 
 pub(crate) fn plural(word: &str, count: u64) -> String {

@@ -150,10 +150,10 @@ impl Order {
         };
         let before = here.checked_sub(1).and_then(|before| all.get(before));
         let (before, after) = (
-            link(before, "prev", "Before"),
+            link(before, "prev", "Previous"),
             link(all.get(here + 1), "next", "Next"),
         );
-        format!("<nav class=\"turn\" aria-label=\"Before and next\">{before}{after}</nav>\n")
+        format!("<nav class=\"turn\" aria-label=\"Previous and next\">{before}{after}</nav>\n")
     }
 }
 
