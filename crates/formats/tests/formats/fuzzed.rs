@@ -9,7 +9,7 @@ mod targets;
 use targets::TARGETS;
 
 /// How many times each file is changed.
-const CHANGES: u32 = 1000;
+const CHANGES: u32 = 400;
 
 fn corpora() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus")
