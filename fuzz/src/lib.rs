@@ -9,11 +9,12 @@ use std::fmt::Display;
 use ombra_accel::{Geometry, Primitives as _};
 use ombra_formats::scene::parse_scene;
 use ombra_formats::{
-    Assets, Finding, FormatError, ImageBuffer, Limits, Model, read_image_bytes, read_model_bytes,
-    read_texture_bytes,
+    Assets, Finding, FormatError, ImageBuffer, Limits, Model, parse_gltf, read_image_bytes,
+    read_model_bytes, read_texture_bytes,
 };
 use ombra_geometry::triangle::TriangleTest;
 use ombra_geometry::{Aabb, TriangleMesh};
+use ombra_scene::Scene;
 
 /// A target: its name, which is that of its corpus, and what it does.
 pub type Target = (&'static str, fn(&[u8]));
@@ -21,6 +22,8 @@ pub type Target = (&'static str, fn(&[u8]));
 /// All of them.
 pub const TARGETS: &[Target] = &[
     ("exr", exr),
+    ("glb", glb),
+    ("gltf", gltf),
     ("gzip", gzip),
     ("mtl", mtl),
     ("netpbm", netpbm),
@@ -107,6 +110,42 @@ pub fn gzip(data: &[u8]) {
     );
 }
 
+/// Reads glTF: JSON, its buffers and pictures in data URIs.
+pub fn gltf(data: &[u8]) {
+    let file = match parse_gltf(data, TriangleTest::default(), &limits()) {
+        Ok(file) => file,
+        Err(error) => return check_error(&error),
+    };
+    check_findings(&file.findings);
+    check_scene(&file.scene);
+    assert!(file.files.is_empty(), "no file is opened");
+}
+
+/// Reads GLB, packed from its two chunks: the length of the first in two bytes, the first, the
+/// second. So changes reach what is in the chunks; the first byte says whether the bytes are GLB as
+/// they are instead.
+pub fn glb(data: &[u8]) {
+    let [kind, low, high, rest @ ..] = data else {
+        return;
+    };
+    if kind & 1 == 0 {
+        return gltf(&data[1..]);
+    }
+    let length = usize::from(u16::from_le_bytes([*low, *high]));
+    let (json, binary) = rest.split_at(length.min(rest.len()));
+    let mut file = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+    for (kind, fill, chunk) in [(b"JSON", b' ', json), (b"BIN\0", 0, binary)] {
+        let padded = chunk.len().next_multiple_of(4);
+        file.extend((padded as u32).to_le_bytes());
+        file.extend(kind);
+        file.extend(chunk);
+        file.resize(file.len() + padded - chunk.len(), fill);
+    }
+    let whole = (file.len() as u32).to_le_bytes();
+    file[8..12].copy_from_slice(&whole);
+    gltf(&file);
+}
+
 /// Reads a scene file, with two models and a picture for it to name.
 pub fn scene(data: &[u8]) {
     const MODEL: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -120,22 +159,9 @@ pub fn scene(data: &[u8]) {
         Ok(file) => file,
         Err(error) => return check_error(&error),
     };
-    assert_eq!(file.scene.validate(), Ok(()));
     assert_eq!(file.hash.len(), 64);
     check_findings(&file.findings);
-    for geometry in &file.scene.geometries {
-        if let Geometry::Mesh(mesh) = geometry {
-            assert!(!mesh.is_empty(), "a mesh has triangles");
-        }
-        for primitive in 0..geometry.len() as u32 {
-            let bounds = geometry.bounds(primitive);
-            assert!(!bounds.is_empty(), "{bounds:?}");
-        }
-    }
-    for object in &file.scene.objects {
-        let to = object.world_from_object.rows();
-        assert!(to.iter().flatten().all(|x| x.is_finite()), "{to:?}");
-    }
+    check_scene(&file.scene);
 }
 
 /// Reads PNG, as a picture and as a texture.
@@ -162,6 +188,23 @@ pub fn netpbm(data: &[u8]) {
         assert_eq!(image.map_or(0, |image| image.non_finite()), 0);
     } else {
         image("a.pfm", data);
+    }
+}
+
+fn check_scene(scene: &Scene) {
+    assert_eq!(scene.validate(), Ok(()));
+    for geometry in &scene.geometries {
+        if let Geometry::Mesh(mesh) = geometry {
+            check_mesh(mesh.mesh());
+        }
+        for primitive in 0..geometry.len() as u32 {
+            let bounds = geometry.bounds(primitive);
+            assert!(!bounds.is_empty(), "{bounds:?}");
+        }
+    }
+    for object in &scene.objects {
+        let to = object.world_from_object.rows();
+        assert!(to.iter().flatten().all(|x| x.is_finite()), "{to:?}");
     }
 }
 

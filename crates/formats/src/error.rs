@@ -220,6 +220,14 @@ pub enum Fault {
     /// A scene file that does not say what a scene file says.
     #[error("{}", shown(.0))]
     Description(String),
+    /// A document (glTF) that does not hold together.
+    #[error("{}: {}", one_line(.place), one_line(.message))]
+    InDocument {
+        /// Where in it, such as `meshes[0].primitives[0].indices`.
+        place: String,
+        /// What is wrong there and what would be right.
+        message: String,
+    },
     /// A mesh that does not hold together.
     #[error(transparent)]
     Mesh(#[from] MeshError),

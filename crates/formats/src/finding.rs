@@ -79,6 +79,15 @@ pub enum Finding {
         /// Where it is used first.
         line: u64,
     },
+    /// Something in a document (glTF) that is not used or not as the file has it.
+    InDocument {
+        /// Where it is met first, such as `meshes[0].primitives[0]`.
+        place: String,
+        /// What there is to hear of it.
+        message: String,
+        /// How often it is met.
+        count: u64,
+    },
     /// Something in a model that a scene file refers to.
     InModel {
         /// The model's name as the scene file gives it.
@@ -161,6 +170,17 @@ impl fmt::Display for Finding {
                 "line {line}: material \"{}\" is not defined: default grey used",
                 shown(name)
             ),
+            Self::InDocument {
+                place,
+                message,
+                count,
+            } => {
+                write!(f, "{}: {}", shown(place), shown(message))?;
+                if *count > 1 {
+                    write!(f, " ({count} times)")?;
+                }
+                Ok(())
+            }
             Self::InModel { file, about } => write!(f, "{}: {about}", shown(file)),
         }
     }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
+use crate::gltf::{self, GltfInfo};
 use crate::image::{ImageInfo, image_info};
 use crate::limits::Limits;
 use crate::mesh::{Model, ModelFormat, ending, read_model};
@@ -25,6 +26,8 @@ pub enum FileInfo {
     Image(ImageInfo),
     /// A scene file.
     Scene(SceneInfo),
+    /// A glTF or GLB file.
+    Gltf(GltfInfo),
 }
 
 /// What a model holds.
@@ -95,6 +98,10 @@ pub fn inspect(path: impl AsRef<Path>) -> Result<FileInfo, FormatError> {
         let model = read_model(path, &Limits::default())?;
         return Ok(FileInfo::Model(model_info(&model)));
     }
+    if gltf::is_named(path) {
+        let file = gltf::read_gltf(path, TriangleTest::default(), &Limits::default())?;
+        return Ok(FileInfo::Gltf(file.info));
+    }
     if ending(path) == "toml" {
         let file = read_scene(path, TriangleTest::default(), &Limits::default())?;
         return Ok(FileInfo::Scene(scene_info(file)));
@@ -139,7 +146,7 @@ fn scene_info(file: SceneFile) -> SceneInfo {
     }
 }
 
-fn kind(material: &Material) -> &'static str {
+pub(crate) fn kind(material: &Material) -> &'static str {
     if material.is_light_source() {
         "light"
     } else if !material.transmission.is_black() {
@@ -148,7 +155,7 @@ fn kind(material: &Material) -> &'static str {
         "mirror"
     } else if !material.specular.is_black() {
         "phong"
-    } else if matches!(material.diffuse, ombra_scene::Texture::Image(_)) {
+    } else if matches!(material.diffuse, ombra_scene::Texture::Picture(_)) {
         "textured"
     } else {
         "diffuse"

@@ -42,6 +42,10 @@ impl<'a> Input<'a> {
         &self.name
     }
 
+    pub(crate) const fn is_in_memory(&self) -> bool {
+        self.bytes.is_some()
+    }
+
     /// From front to back, unpacked if it is a gzip file.
     pub(crate) fn source(&self, limits: &Limits) -> Result<Source<'a>, FormatError> {
         match self.bytes {

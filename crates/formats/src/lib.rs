@@ -1,7 +1,7 @@
 //! Files in and out: bytes to descriptions, and pictures to bytes. Nothing is traced here.
 //!
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
-//! ([`read_model`]: OBJ with MTL, PLY, STL), and pictures ([`read_texture`], [`read_image`]); out go
+//! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), and pictures ([`read_texture`], [`read_image`]); out go
 //! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
 //! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
 //! [`scene::parse_scene`], which open no file at all.
@@ -28,6 +28,7 @@ pub mod sha256;
 
 mod error;
 mod finding;
+mod gltf;
 mod image;
 mod info;
 mod input;
@@ -38,6 +39,7 @@ mod source;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
+pub use gltf::{GltfFile, GltfInfo, parse_gltf, read_gltf};
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image,
     read_image_bytes, read_texture, read_texture_bytes, write_image,

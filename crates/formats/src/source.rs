@@ -150,6 +150,20 @@ impl<'a> Source<'a> {
         Ok(Some(&self.buffer[from..self.start]))
     }
 
+    /// All bytes that follow.
+    pub(crate) fn rest(&mut self) -> Result<Vec<u8>, FormatError> {
+        let mut rest = Vec::new();
+        loop {
+            let piece = self.peek(BUFFER)?;
+            let length = piece.len();
+            if length == 0 {
+                return Ok(rest);
+            }
+            rest.extend_from_slice(piece);
+            self.take(length)?;
+        }
+    }
+
     /// Passes over `count` bytes; false if the file has not so many left.
     pub(crate) fn skip(&mut self, mut count: u64) -> Result<bool, FormatError> {
         while count > 0 {

@@ -4,13 +4,18 @@ use std::path::Path;
 
 use ombra_accel::{Geometry, Mesh};
 use ombra_formats::scene::{Assets, Picture, SceneFile, parse_scene, read_scene};
-use ombra_formats::{FormatError, Limits, Model, read_model, sha256, with_normals};
+use ombra_formats::{
+    FormatError, GltfFile, Limits, Model, read_gltf, read_model, sha256, with_normals,
+};
 use ombra_geometry::triangle::TriangleTest;
 use ombra_geometry::{Transform, Vector3};
-use ombra_scene::{MaterialId, Scene};
+use ombra_scene::{MaterialId, Rgb, Scene};
 
 use crate::builtin::{self, Builtin};
 use crate::defaults;
+
+/// What is behind a model: a sky without sun.
+const BACKGROUND: Rgb = Rgb::new(0.62, 0.67, 0.74);
 
 /// How to take a scene or a model.
 #[derive(Clone, Debug, Default)]
@@ -87,12 +92,13 @@ pub fn load(name: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
     if !path.exists() {
         return Err(LoadError::NoSuchScene(name.to_owned()));
     }
-    let is_scene = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    let mut loaded = if is_scene {
+    let mut loaded = if is_named(path, &["toml"]) {
         let file = read_scene(path, options.triangle_test, &options.limits)?;
         of_scene(file)
+    } else if is_named(path, &["gltf", "glb"]) {
+        let file = read_gltf(path, options.triangle_test, &options.limits)?;
+        let hash = sha256::of_files(&file.files)?;
+        of_gltf(file, hash)
     } else {
         let model = read_model(path, &options.limits)?;
         let hash = sha256::of_files(&model.files)?;
@@ -103,6 +109,22 @@ pub fn load(name: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
     }
     defaults::light(&mut loaded.scene);
     Ok(loaded)
+}
+
+/// Whether a file has one of these endings, that before ".gz" if it has such.
+fn is_named(path: &Path, endings: &[&str]) -> bool {
+    let packed = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("gz"));
+    let path = if packed {
+        path.with_extension("")
+    } else {
+        path.to_owned()
+    };
+    let ending = path.extension().unwrap_or_default();
+    endings
+        .iter()
+        .any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 fn of_builtin(scene: &Builtin, options: &LoadOptions) -> Result<Loaded, FormatError> {
@@ -121,6 +143,18 @@ fn of_scene(file: SceneFile) -> Loaded {
     }
 }
 
+fn of_gltf(file: GltfFile, hash: String) -> Loaded {
+    let findings = file.findings.iter().map(ToString::to_string).collect();
+    let mut scene = file.scene;
+    scene.background = BACKGROUND.into();
+    Loaded {
+        scene,
+        picture: file.picture,
+        findings,
+        hash,
+    }
+}
+
 fn of_model(model: Model, options: &LoadOptions, hash: String) -> Result<Loaded, FormatError> {
     let findings = model.findings.iter().map(ToString::to_string).collect();
     let natural = if model.format.is_stl() {
@@ -132,7 +166,7 @@ fn of_model(model: Model, options: &LoadOptions, hash: String) -> Result<Loaded,
         up: natural,
         ..Scene::default()
     };
-    scene.background = ombra_scene::Rgb::new(0.62, 0.67, 0.74).into();
+    scene.background = BACKGROUND.into();
     scene.materials = model.materials;
     for part in model.parts {
         let mesh = with_normals(part.mesh)?;

@@ -4,6 +4,8 @@ use ombra_accel::Geometry;
 use ombra_geometry::shape::{Shape, Surface};
 use ombra_geometry::{Hit, Normal3, Object, Point3, Ray, Transform, TriangleMesh, Vector3, World};
 
+use crate::Rgb;
+
 /// A place on a surface, in the world's space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interaction {
@@ -18,6 +20,9 @@ pub struct Interaction {
     pub shading_normal: Normal3,
     /// Surface parameters.
     pub uv: [f32; 2],
+    /// The colour that a mesh has here by its vertices, by which the material's own is multiplied;
+    /// white where it has none.
+    pub tint: Rgb,
     /// Back along the ray that came here, unit length.
     pub wo: Vector3,
     /// How far `point` may be from the surface as the next ray's test sees it.
@@ -80,6 +85,7 @@ impl Interaction {
             normal,
             shading_normal,
             uv: local.uv,
+            tint: local.tint,
             wo,
             error: WORLD_ROUNDING * point.to_vector().max_norm()
                 + in_object * growth(world_from_object)
@@ -135,6 +141,7 @@ struct Local {
     /// Where the mesh has normals; of any length.
     interpolated_normal: Option<Normal3<f64>>,
     uv: [f32; 2],
+    tint: Rgb,
     /// The extent of what the next ray's test computes with in single precision.
     test_extent: f32,
     /// How far the point may have slid along the ray, in the space of the world.
@@ -155,6 +162,9 @@ impl Local {
                 .interpolated_normal(triangle, hit.u, hit.v)
                 .map(Normal3::wide),
             uv: mesh.uv_at(triangle, hit.u, hit.v).unwrap_or([hit.u, hit.v]),
+            tint: mesh
+                .colour_at(triangle, hit.u, hit.v)
+                .map_or(Rgb::WHITE, Rgb::from),
             test_extent: ab.max_norm().max(ac.max_norm()) as f32,
             slide: 0.0,
         }
@@ -174,6 +184,7 @@ impl Local {
             normal: shape.normal_at(point),
             interpolated_normal: None,
             uv: [hit.u, hit.v],
+            tint: Rgb::WHITE,
             // Shapes are tested in double precision.
             test_extent: 0.0,
             slide: SLIDE_ROUNDING * ray.direction.length() * hit.t,

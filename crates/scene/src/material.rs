@@ -2,7 +2,7 @@
 
 use ombra_geometry::Point3;
 
-use crate::{Rgb, Texture};
+use crate::{PictureTexture, Rgb, Texture};
 
 /// A material within its scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -54,6 +54,25 @@ pub struct Material {
     /// Light of its own, added to everything else. A surface that has nothing else is a light source
     /// (see [`is_light_source`](Self::is_light_source)).
     pub emission: Rgb,
+    /// A picture that `emission` is multiplied by.
+    pub emission_picture: Option<PictureTexture>,
+    /// How much of light is lost on its way behind the surface, per unit of length and colour, 0 or
+    /// more: of what comes the distance d, exp(−absorption · d) is left (Beer's law).
+    pub absorption: Rgb,
+    /// Whether only the outer side is there: rays that come from behind pass as if there were
+    /// nothing.
+    pub one_sided: bool,
+    /// Where the surface has holes.
+    pub cutout: Option<Cutout>,
+}
+
+/// Holes in a surface: it is not there where a picture's opacity is below a bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cutout {
+    /// The picture. Its colours have no part in this.
+    pub picture: PictureTexture,
+    /// The least opacity at which the surface is there.
+    pub cutoff: f32,
 }
 
 impl Default for Material {
@@ -70,6 +89,10 @@ impl Default for Material {
             fresnel: false,
             internal_reflection: true,
             emission: Rgb::BLACK,
+            emission_picture: None,
+            absorption: Rgb::BLACK,
+            one_sided: false,
+            cutout: None,
         }
     }
 }
@@ -130,6 +153,33 @@ impl Material {
             && self.reflection.is_black()
             && self.transmission.is_black()
             && matches!(self.diffuse, Texture::Constant(diffuse) if diffuse.is_black())
+    }
+
+    /// Its own light at surface parameters.
+    #[must_use]
+    #[inline]
+    pub fn emission_at(&self, uv: [f32; 2]) -> Rgb {
+        match &self.emission_picture {
+            Some(picture) => self.emission * picture.at(uv),
+            None => self.emission,
+        }
+    }
+
+    /// What is left of light that came this far behind the surface, per colour.
+    #[must_use]
+    #[inline]
+    pub fn left_after(&self, distance: f32) -> Rgb {
+        self.absorption
+            .to_array()
+            .map(|a| (-a * distance).exp())
+            .into()
+    }
+
+    /// Whether it is there wherever its object is, and from both sides.
+    #[must_use]
+    #[inline]
+    pub const fn is_whole(&self) -> bool {
+        !self.one_sided && self.cutout.is_none()
     }
 
     /// The scattered part at a place of the surface; see [`Texture::at`].

@@ -8,6 +8,7 @@ use ombra_accel::{
 };
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 
+use crate::presence;
 use crate::{Interaction, Material, Scene, SceneError};
 
 /// A scene with an acceleration structure over it, on two levels: one in each geometry, one over
@@ -17,6 +18,8 @@ pub struct World {
     scene: Scene,
     accel: Accel<Instances<Geometry>>,
     finite_bounds: Aabb,
+    /// Whether a hit may be of something that is not there; see `presence.rs`.
+    has_gaps: bool,
 }
 
 impl World {
@@ -49,10 +52,12 @@ impl World {
             .collect();
         let accel = Accel::build(Instances::new(geometries, instances), kind);
         let finite_bounds = finite_bounds(&scene);
+        let has_gaps = scene.materials.iter().any(|material| !material.is_whole());
         Ok(Self {
             scene,
             accel,
             finite_bounds,
+            has_gaps,
         })
     }
 
@@ -136,7 +141,18 @@ impl Traversable for World {
         statistics: Option<&mut Statistics>,
         any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Candidate> {
-        self.accel.search(ray, rule, statistics, any_hit)
+        if !self.has_gaps {
+            return self.accel.search(ray, rule, statistics, any_hit);
+        }
+        let mut of_what_is_there = |candidate: &Candidate| {
+            if presence::is_there(&self.scene, ray, candidate) {
+                any_hit(candidate)
+            } else {
+                AnyHit::Ignore
+            }
+        };
+        self.accel
+            .search(ray, rule, statistics, &mut of_what_is_there)
     }
 
     fn bounds(&self) -> Aabb {

@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use anyhow::bail;
-use ombra::formats::{FileInfo, Finding, ImageInfo, ModelInfo, SceneInfo, inspect};
+use ombra::formats::{FileInfo, Finding, GltfInfo, ImageInfo, ModelInfo, SceneInfo, inspect};
 
 use crate::args::InfoArgs;
 
@@ -34,6 +34,7 @@ fn words(info: &FileInfo) -> anyhow::Result<String> {
         FileInfo::Model(info) => model(info),
         FileInfo::Image(info) => image(info),
         FileInfo::Scene(info) => scene(info),
+        FileInfo::Gltf(info) => gltf(info),
         other => Ok(serde_json::to_string_pretty(other)? + "\n"),
     }
 }
@@ -59,6 +60,52 @@ fn model(info: &ModelInfo) -> anyhow::Result<String> {
     for material in &info.materials {
         let (name, kind, triangles) = (&material.name, material.kind, material.triangles);
         writeln!(text, "material    {name}: {kind}, {triangles} triangles")?;
+    }
+    notes(&mut text, &info.findings)?;
+    Ok(text)
+}
+
+fn gltf(info: &GltfInfo) -> anyhow::Result<String> {
+    let mut text = String::new();
+    write!(text, "format      {} {}", info.format, info.version)?;
+    match &info.generator {
+        Some(generator) => writeln!(text, ", written by {}", generator.escape_debug())?,
+        None => writeln!(text)?,
+    }
+    writeln!(text, "nodes       {}", info.nodes)?;
+    writeln!(text, "meshes      {}", info.meshes)?;
+    writeln!(text, "objects     {}", info.objects)?;
+    writeln!(text, "vertices    {}", info.vertices)?;
+    write!(text, "triangles   {}", info.triangles)?;
+    if info.placed_triangles == info.triangles {
+        writeln!(text)?;
+    } else {
+        writeln!(text, ", placed {}", info.placed_triangles)?;
+    }
+    if let Some([min, max]) = info.bounds {
+        writeln!(text, "bounds      {min:?} to {max:?}")?;
+    }
+    writeln!(
+        text,
+        "textures    {} of {} images",
+        info.textures, info.images
+    )?;
+    writeln!(text, "cameras     {}", info.cameras)?;
+    writeln!(text, "lights      {}", info.lights)?;
+    if info.animations + info.skins > 0 {
+        writeln!(
+            text,
+            "animations  {}, skins {}",
+            info.animations, info.skins
+        )?;
+    }
+    for material in &info.materials {
+        let (name, kind, triangles) = (&material.name, material.kind, material.triangles);
+        writeln!(
+            text,
+            "material    {}: {kind}, {triangles} triangles",
+            name.escape_debug()
+        )?;
     }
     notes(&mut text, &info.findings)?;
     Ok(text)

@@ -79,7 +79,7 @@ pub(crate) fn default_scene() -> anyhow::Result<ExitCode> {
         writeln!(out, "  {ombra} render cornell -o cornell.png --spp 64")?;
         writeln!(
             out,
-            "  {ombra} render model.obj -o model.png    # a model of yours: obj, ply, stl"
+            "  {ombra} render model.obj -o model.png    # a model of yours: obj, ply, stl, glb"
         )?;
         writeln!(
             out,

@@ -123,6 +123,15 @@ fn broken_models_end_in_one_line_and_no_picture() {
         ("huge_counts.ply", "too short"),
         ("bomb.ply.gz", "bomb.ply.gz"),
         ("texture_bomb.png", "texture_bomb.png"),
+        ("bad_base64.gltf", "base64"),
+        ("bad_magic.glb", "glTF"),
+        ("cyclic_nodes.glb", "cycle"),
+        ("empty.glb", "empty"),
+        ("huge_counts.glb", "48000000000"),
+        ("index_past_vertices.glb", "9999"),
+        ("missing_bin.gltf", "not_there.bin"),
+        ("path_traversal.gltf", "not opened"),
+        ("truncated.glb", "25756"),
     ] {
         let path = data.join("bad").join(file);
         let path = path.to_str().unwrap();

@@ -47,6 +47,41 @@ fn the_same_command_gives_the_same_bytes_at_any_number_of_threads() {
     }
 }
 
+/// A white square of two triangles, as a strip, in front of a camera.
+const GLTF: &str = r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.5, 0.5, 3]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5}]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.4, "aspectRatio": 2, "znear": 0.1}}],
+    "accessors": [{"bufferView": 0, "componentType": 5121, "count": 4, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 15, "byteStride": 4}],
+    "buffers": [{"byteLength": 15, "uri": "data:;base64,AAAAAAEAAAAAAQAAAQEA"}]}"#;
+
+#[test]
+fn gltf_files_are_rendered_and_told_of() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("square.gltf"), GLTF).unwrap();
+    let command = ["render", "square.gltf", "-o", "a.ppm", "--spp", "1"];
+    succeed(folder.path(), &command);
+    let picture = std::fs::read(folder.path().join("a.ppm")).unwrap();
+    let header = picture.windows(9).any(|w| w == b"\n1080 540");
+    assert!(header, "the camera says how wide its picture is");
+    let pixel =
+        |x: usize, y: usize| &picture[picture.len() - 1080 * 540 * 3 + 3 * (1080 * y + x)..][..3];
+    assert!(pixel(540, 270)[0] > 200, "{:?}", pixel(540, 270));
+    assert_ne!(pixel(540, 270), pixel(5, 5));
+    let info = succeed(folder.path(), &["info", "square.gltf", "--json"]);
+    let info: serde_json::Value = serde_json::from_str(&info).unwrap();
+    assert_eq!(
+        (&info["kind"], &info["triangles"]),
+        (&"gltf".into(), &2.into())
+    );
+    assert_eq!((&info["cameras"], &info["nodes"]), (&1.into(), &2.into()));
+    let words = succeed(folder.path(), &["info", "square.gltf"]);
+    assert!(
+        words.contains("format      glTF 2.0") && words.contains("triangles   2"),
+        "{words}"
+    );
+}
+
 #[test]
 fn names_in_any_script_are_good_names() {
     let folder = tempfile::tempdir().unwrap();

@@ -118,7 +118,7 @@ fn library_info(input: &Input<'_>) -> Result<ImageInfo, FormatError> {
     let format = texture::name(&reader);
     if reader.format().is_none() {
         return Err(FormatError::file(Fault::UnknownContent {
-            known: "models (obj, ply, stl) and images (png, jpg, tga, bmp, exr, pfm, ppm)",
+            known: "models (obj, ply, stl, gltf, glb) and images (png, jpg, tga, bmp, exr, pfm, ppm)",
         }));
     }
     let decoder = reader.into_decoder().map_err(|e| image_fault(format, &e))?;

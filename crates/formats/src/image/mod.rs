@@ -19,7 +19,7 @@ use crate::input::Input;
 use crate::limits::Limits;
 
 pub use metadata::Metadata;
-pub(crate) use texture::texture;
+pub(crate) use texture::{mean_of_bytes, texture, texture_of_bytes};
 pub use texture::{read_texture, read_texture_bytes};
 pub use write::{OutputFile, write_image};
 

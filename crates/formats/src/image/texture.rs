@@ -44,17 +44,45 @@ pub(crate) fn texture(input: &Input<'_>, limits: &Limits) -> Result<Image, Forma
 /// The same with opacity as the channel "A".
 pub(super) fn read_png(input: &Input<'_>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
     let decoded = decode(input, limits)?;
-    let alpha = decoded.color().has_alpha().then(|| {
-        let rgba = decoded.to_rgba16();
-        let alpha = rgba.pixels().map(|p| f32::from(p[3]) / 65535.0);
-        alpha.collect()
-    });
+    let alpha = decoded.color().has_alpha().then(|| alpha(&decoded));
     let (width, height, pixels) = linear(decoded);
     let image = ImageBuffer::new(width, height, pixels)?;
     match alpha {
         Some(alpha) => image.with_channel("A", alpha),
         None => Ok(image),
     }
+}
+
+/// A picture that is in memory, as a texture; with its opacity if that is asked for and there.
+pub(crate) fn texture_of_bytes(
+    bytes: &[u8],
+    with_alpha: bool,
+    limits: &Limits,
+) -> Result<Image, FormatError> {
+    let decoded = decode(&Input::in_memory("", bytes), limits)?;
+    let alpha = (with_alpha && decoded.color().has_alpha()).then(|| alpha(&decoded));
+    let (width, height, pixels) = linear(decoded);
+    let count = pixels.len() as u64;
+    let image = Image::new(width, height, pixels);
+    let image = image.and_then(|image| match alpha {
+        Some(alpha) => image.with_alpha(alpha),
+        None => Some(image),
+    });
+    image.ok_or_else(|| pixel_count(width, height, count))
+}
+
+/// The mean of a picture that is in memory and holds no colours: red, green and blue as they are
+/// written, 0 to 1.
+pub(crate) fn mean_of_bytes(bytes: &[u8], limits: &Limits) -> Result<[f32; 3], FormatError> {
+    let pixels = decode(&Input::in_memory("", bytes), limits)?.into_rgb8();
+    let count = u64::from(pixels.width()) * u64::from(pixels.height());
+    let mut sums = [0_u64; 3];
+    for pixel in pixels.pixels() {
+        for (sum, value) in sums.iter_mut().zip(pixel.0) {
+            *sum += u64::from(value);
+        }
+    }
+    Ok(sums.map(|sum| (sum as f64 / (255.0 * count.max(1) as f64)) as f32))
 }
 
 /// What the library reads from.
@@ -82,6 +110,7 @@ pub(super) fn name(reader: &Reader<'_>) -> &'static str {
     }
 }
 
+/// First the header alone, so that a picture that is too large is refused before it is decoded.
 fn decode(input: &Input<'_>, limits: &Limits) -> Result<DynamicImage, FormatError> {
     let reader = open(input)?;
     let name = name(&reader);
@@ -93,6 +122,12 @@ fn decode(input: &Input<'_>, limits: &Limits) -> Result<DynamicImage, FormatErro
     library_limits.max_alloc = Some(limits.image_pixels.saturating_mul(8));
     reader.limits(library_limits);
     reader.decode().map_err(|e| image_fault(name, &e))
+}
+
+fn alpha(decoded: &DynamicImage) -> Vec<f32> {
+    let rgba = decoded.to_rgba16();
+    let alpha = rgba.pixels().map(|p| f32::from(p[3]) / 65535.0);
+    alpha.collect()
 }
 
 fn linear(decoded: DynamicImage) -> (u32, u32, Vec<Rgb>) {

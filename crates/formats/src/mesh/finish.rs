@@ -7,29 +7,30 @@ use crate::finding::Finding;
 
 /// Vertices with their attributes, and triangles between them.
 #[derive(Default)]
-pub(super) struct Raw {
-    pub(super) positions: Vec<Point3>,
-    pub(super) normals: Option<Vec<Normal3>>,
-    pub(super) uvs: Option<Vec<[f32; 2]>>,
-    pub(super) triangles: Vec<[u32; 3]>,
+pub(crate) struct Raw {
+    pub(crate) positions: Vec<Point3>,
+    pub(crate) normals: Option<Vec<Normal3>>,
+    pub(crate) uvs: Option<Vec<[f32; 2]>>,
+    pub(crate) colours: Option<Vec<[f32; 3]>>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 /// How much of a mesh had to be mended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Mended {
-    pub(super) degenerate: u64,
-    pub(super) zero_normals: u64,
-    pub(super) unused_vertices: u64,
+pub(crate) struct Mended {
+    pub(crate) degenerate: u64,
+    pub(crate) zero_normals: u64,
+    pub(crate) unused_vertices: u64,
 }
 
 impl Mended {
-    pub(super) fn add(&mut self, other: Self) {
+    pub(crate) fn add(&mut self, other: Self) {
         self.degenerate += other.degenerate;
         self.zero_normals += other.zero_normals;
         self.unused_vertices += other.unused_vertices;
     }
 
-    pub(super) fn report(self, findings: &mut Vec<Finding>) {
+    pub(crate) fn report(self, findings: &mut Vec<Finding>) {
         if self.degenerate > 0 {
             let count = self.degenerate;
             findings.push(Finding::DegenerateTriangles { count });
@@ -47,7 +48,7 @@ impl Mended {
 
 /// The mesh without its triangles of area zero and the vertices that no other triangle uses, and
 /// with normals of length 1.
-pub(super) fn finish(mut raw: Raw) -> Result<(TriangleMesh, Mended), FormatError> {
+pub(crate) fn finish(mut raw: Raw) -> Result<(TriangleMesh, Mended), FormatError> {
     let whole = raw.triangles.len();
     let unused = if whole > 0 { drop_unused(&mut raw) } else { 0 };
     let positions = &raw.positions;
@@ -71,6 +72,9 @@ pub(super) fn finish(mut raw: Raw) -> Result<(TriangleMesh, Mended), FormatError
     }
     if let Some(uvs) = raw.uvs {
         mesh = mesh.with_uvs(uvs).map_err(FormatError::file)?;
+    }
+    if let Some(colours) = raw.colours {
+        mesh = mesh.with_colours(colours).map_err(FormatError::file)?;
     }
     Ok((mesh, mended))
 }
@@ -100,6 +104,7 @@ fn drop_unused(raw: &mut Raw) -> u64 {
     keep(&mut raw.positions, &used);
     raw.normals.iter_mut().for_each(|n| keep(n, &used));
     raw.uvs.iter_mut().for_each(|uvs| keep(uvs, &used));
+    raw.colours.iter_mut().for_each(|c| keep(c, &used));
     unused as u64
 }
 

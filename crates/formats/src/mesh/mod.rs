@@ -1,6 +1,6 @@
 //! Models: triangle meshes with materials, out of OBJ, PLY and STL files.
 
-mod finish;
+pub(crate) mod finish;
 mod mtl;
 mod normals;
 mod obj;
@@ -200,8 +200,12 @@ fn read_source(
         "obj" => obj::read(&mut source, assets, limits),
         "ply" => ply::read(&mut source),
         "stl" => stl::read(&mut source),
+        "gltf" | "glb" => Err(FormatError::file(Fault::Unexpected {
+            found: "a glTF file".to_owned(),
+            expected: "a model alone (glTF is a scene, which read_gltf reads)",
+        })),
         _ => Err(FormatError::file(Fault::UnknownContent {
-            known: "models with the ending obj, ply or stl (each also with .gz)",
+            known: "models with the ending obj, ply, stl, gltf or glb (each also with .gz)",
         })),
     }
 }

@@ -4,11 +4,13 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ombra_scene::{Image, Texture};
+use ombra_geometry::triangle::TriangleTest;
+use ombra_scene::{Image, Material, Texture};
 
 use super::build::wrong;
 use crate::error::FormatError;
 use crate::finding::Finding;
+use crate::gltf::{self, GltfFile};
 use crate::image::texture;
 use crate::input::{Assets, Input};
 use crate::limits::{Limits, take_pixels};
@@ -46,9 +48,25 @@ impl<'a> Loader<'a> {
         };
         let model = mesh::read(&input, &beside, &self.limits)?;
         self.take(&model.files)?;
+        self.account(&model.materials)?;
+        Ok(model)
+    }
+
+    /// The scene of a glTF file.
+    pub(super) fn gltf(&mut self, name: &str, test: TriangleTest) -> Result<GltfFile, FormatError> {
+        let input = find(self.assets, name, "model")?;
+        let file = gltf::read_input(&input, test, &self.limits)?;
+        self.take(&file.files)?;
+        self.account(&file.scene.materials)?;
+        Ok(file)
+    }
+
+    /// Takes the textures of some materials, each picture once, from what may still be loaded.
+    fn account(&mut self, materials: &[Material]) -> Result<(), FormatError> {
         let mut counted = Vec::new();
-        for material in &model.materials {
-            if let Texture::Image(image) = &material.diffuse {
+        for material in materials {
+            if let Texture::Picture(picture) = &material.diffuse {
+                let image = &picture.image;
                 let address = Arc::as_ptr(image);
                 if !counted.contains(&address) {
                     counted.push(address);
@@ -56,7 +74,7 @@ impl<'a> Loader<'a> {
                 }
             }
         }
-        Ok(model)
+        Ok(())
     }
 
     /// The SHA-256 of the scene file and all that was read after it.

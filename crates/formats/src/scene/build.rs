@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
+use std::path::Path;
 
 use ombra_accel::{Geometry, Mesh, Shapes};
 use ombra_geometry::triangle::TriangleTest;
@@ -24,16 +25,25 @@ use super::shapes::ShapeSpec;
 use super::{Assets, SceneFile, line_of};
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
+use crate::gltf;
 use crate::limits::Limits;
 use crate::mesh::with_normals;
 
 /// A model whose geometries are in the scene, wherever objects place them.
 struct LoadedModel {
-    /// Name, geometry and material of each part.
-    parts: Vec<(String, GeometryId, usize)>,
+    parts: Vec<LoadedPart>,
     materials: Vec<Material>,
     /// Where in the scene its own materials begin, once an object needs them.
     first_material: Option<usize>,
+}
+
+/// A part of a model: what it is called, its geometry and which of the model's materials it has, and
+/// where it stands within the model.
+struct LoadedPart {
+    name: String,
+    geometry: GeometryId,
+    material: usize,
+    model_from_part: Option<Transform<Object, World>>,
 }
 
 /// What everything else is built with.
@@ -106,7 +116,7 @@ impl Builder<'_> {
             diffuse: match &spec.diffuse {
                 // What has light of its own is a lamp, unless it says otherwise.
                 None if !emission.is_black() => Rgb::BLACK.into(),
-                None => default.diffuse,
+                None => default.diffuse.clone(),
                 Some(texture) => self.texture(texture)?,
             },
             specular: colour("specular", spec.specular)?,
@@ -124,6 +134,7 @@ impl Builder<'_> {
                 .unwrap_or(default.internal_reflection),
             emission,
             name: name.clone(),
+            ..default
         };
         self.named
             .insert(name, MaterialId(self.scene.materials.len() as u32));
@@ -141,7 +152,7 @@ impl Builder<'_> {
                     size: above_zero("size", spec.size)?,
                 })
             }
-            TextureSpec::Image(spec) => Ok(Texture::Image(self.loader.image(&spec.image)?)),
+            TextureSpec::Image(spec) => Ok(self.loader.image(&spec.image)?.into()),
         }
     }
 
@@ -247,16 +258,24 @@ impl Builder<'_> {
             }
             (_, first) => first.unwrap_or_default(),
         };
-        for (part, geometry, own) in &loaded.parts {
-            let material = material.unwrap_or(MaterialId((first + own) as u32));
-            let name = format!("{name}, {part}");
-            self.scene.place_again(name, *geometry, material, placed);
+        for part in &loaded.parts {
+            let material = material.unwrap_or(MaterialId((first + part.material) as u32));
+            let name = format!("{name}, {}", part.name);
+            let placed = match &part.model_from_part {
+                None => placed,
+                Some(within) => nested(within, &placed)?,
+            };
+            self.scene
+                .place_again(name, part.geometry, material, placed);
         }
         self.models.insert(file.to_owned(), loaded);
         Ok(())
     }
 
     fn load(&mut self, file: &str) -> Result<LoadedModel, FormatError> {
+        if gltf::is_named(Path::new(file)) {
+            return self.load_gltf(file);
+        }
         let model = self.loader.model(file)?;
         let findings = model.findings.into_iter().map(Box::new);
         self.findings.extend(findings.map(|about| {
@@ -267,11 +286,39 @@ impl Builder<'_> {
         for part in model.parts {
             let mesh = Mesh::with_test(with_normals(part.mesh)?, self.test);
             let geometry = self.scene.add_geometry(Geometry::Mesh(mesh));
-            parts.push((part.name, geometry, part.material));
+            parts.push(LoadedPart {
+                name: part.name,
+                geometry,
+                material: part.material,
+                model_from_part: None,
+            });
         }
         Ok(LoadedModel {
             parts,
             materials: model.materials,
+            first_material: None,
+        })
+    }
+
+    /// The objects of a glTF file; its cameras and lights are not taken.
+    fn load_gltf(&mut self, file: &str) -> Result<LoadedModel, FormatError> {
+        let loaded = self.loader.gltf(file, self.test)?;
+        self.findings
+            .extend(loaded.findings.into_iter().map(|about| {
+                let (file, about) = (file.to_owned(), Box::new(about));
+                Finding::InModel { file, about }
+            }));
+        let first = self.scene.geometries.len() as u32;
+        self.scene.geometries.extend(loaded.scene.geometries);
+        let parts = loaded.scene.objects.into_iter().map(|object| LoadedPart {
+            name: object.name,
+            geometry: GeometryId(first + object.geometry.0),
+            material: object.material.index(),
+            model_from_part: Some(object.world_from_object),
+        });
+        Ok(LoadedModel {
+            parts: parts.collect(),
+            materials: loaded.scene.materials,
             first_material: None,
         })
     }
@@ -355,6 +402,16 @@ impl Builder<'_> {
         self.scene.materials.push(Material::default());
         MaterialId(self.scene.materials.len() as u32 - 1)
     }
+}
+
+/// Where a part of a model stands whose model is placed.
+fn nested(
+    within: &Transform<Object, World>,
+    placed: &Transform<Object, World>,
+) -> Result<Transform<Object, World>, FormatError> {
+    let within = Transform::<Object, Object>::from_rows(*within.rows());
+    let nested = within.and_then(|within| Transform::from_rows(*within.then(placed).rows()));
+    nested.map_err(|e| wrong(format!("transform: {e}")))
 }
 
 impl From<CutoffSpec> for Cutoff {

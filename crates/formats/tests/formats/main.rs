@@ -2,6 +2,7 @@
 
 mod broken;
 mod fuzzed;
+mod gltf;
 mod hostile;
 mod images;
 mod materials;

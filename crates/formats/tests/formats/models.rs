@@ -213,7 +213,7 @@ fn points_without_triangles_are_a_model_that_says_so() {
 fn a_file_of_unknown_kind_is_refused_with_what_is_known() {
     assert_eq!(
         try_read("model.xyz", "1 2 3").unwrap_err(),
-        "model.xyz: unknown kind of file; models with the ending obj, ply or stl (each also with \
+        "model.xyz: unknown kind of file; models with the ending obj, ply, stl, gltf or glb (each also with \
          .gz) can be read"
     );
     assert_eq!(

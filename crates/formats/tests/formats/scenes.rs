@@ -63,7 +63,7 @@ fn a_texture_is_loaded_once_and_all_have_one_limit() {
     let file = try_scene(&folder, &text, &limits).unwrap();
     let images: Vec<_> = (file.scene.materials.iter())
         .map(|material| match &material.diffuse {
-            Texture::Image(image) => std::sync::Arc::as_ptr(image),
+            Texture::Picture(picture) => std::sync::Arc::as_ptr(&picture.image),
             other => panic!("{other:?} is no picture"),
         })
         .collect();

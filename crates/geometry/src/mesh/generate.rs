@@ -141,6 +141,7 @@ fn of(points: impl IntoIterator<Item = Point3<f64>>, triangles: Vec<[u32; 3]>) -
         triangles,
         normals: None,
         uvs: None,
+        colours: None,
     }
 }
 

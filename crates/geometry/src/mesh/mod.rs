@@ -18,6 +18,7 @@ pub struct TriangleMesh {
     triangles: Vec<[u32; 3]>,
     normals: Option<Vec<Normal3>>,
     uvs: Option<Vec<[f32; 2]>>,
+    colours: Option<Vec<[f32; 3]>>,
 }
 
 /// What does not make a mesh.
@@ -35,7 +36,7 @@ pub enum MeshError {
     },
     /// An attribute has not as many entries as there are positions.
     AttributeLength {
-        /// "normals" or "uvs".
+        /// "normals", "uvs" or "colours".
         attribute: &'static str,
         /// How many entries it has.
         entries: usize,
@@ -100,6 +101,7 @@ impl TriangleMesh {
             triangles,
             normals: None,
             uvs: None,
+            colours: None,
         })
     }
 
@@ -127,6 +129,19 @@ impl TriangleMesh {
         })
     }
 
+    /// The same mesh with colours, one a vertex: red, green and blue in linear light, by which what
+    /// the surface is made of is tinted.
+    ///
+    /// # Errors
+    /// When there are not as many as vertices.
+    pub fn with_colours(self, colours: Vec<[f32; 3]>) -> Result<Self, MeshError> {
+        self.check_length("colours", colours.len())?;
+        Ok(Self {
+            colours: Some(colours),
+            ..self
+        })
+    }
+
     /// The vertices.
     #[must_use]
     pub fn positions(&self) -> &[Point3] {
@@ -149,6 +164,12 @@ impl TriangleMesh {
     #[must_use]
     pub fn uvs(&self) -> Option<&[[f32; 2]]> {
         self.uvs.as_deref()
+    }
+
+    /// The colours, one a vertex, if there are any.
+    #[must_use]
+    pub fn colours(&self) -> Option<&[[f32; 3]]> {
+        self.colours.as_deref()
     }
 
     /// The corners of one triangle.
@@ -192,6 +213,7 @@ impl TriangleMesh {
             + size_of_val(self.triangles())
             + self.normals().map_or(0, size_of_val)
             + self.uvs().map_or(0, size_of_val)
+            + self.colours().map_or(0, size_of_val)
     }
 
     fn check_length(&self, attribute: &'static str, entries: usize) -> Result<(), MeshError> {

@@ -117,6 +117,7 @@ fn split(
     let mut vertices = HashMap::with_capacity(mesh.positions().len());
     let (mut positions, mut normals) = (Vec::new(), Vec::new());
     let mut uvs = mesh.uvs().map(|_| Vec::new());
+    let mut colours = mesh.colours().map(|_| Vec::new());
     let mut triangles = Vec::with_capacity(faces.len());
     for (triangle, corners) in mesh.triangles().iter().enumerate() {
         let mut split_corners = [0; 3];
@@ -131,6 +132,9 @@ fn split(
                 if let (Some(uvs), Some(all)) = (&mut uvs, mesh.uvs()) {
                     uvs.push(all[vertex as usize]);
                 }
+                if let (Some(colours), Some(all)) = (&mut colours, mesh.colours()) {
+                    colours.push(all[vertex as usize]);
+                }
                 positions.len() - 1
             });
         }
@@ -139,11 +143,14 @@ fn split(
         }
         triangles.push(split_corners.map(|i| i as u32));
     }
-    let mesh = TriangleMesh::new(positions, triangles)?.with_normals(normals)?;
-    match uvs {
-        Some(uvs) => mesh.with_uvs(uvs),
-        None => Ok(mesh),
+    let mut mesh = TriangleMesh::new(positions, triangles)?.with_normals(normals)?;
+    if let Some(uvs) = uvs {
+        mesh = mesh.with_uvs(uvs)?;
     }
+    if let Some(colours) = colours {
+        mesh = mesh.with_colours(colours)?;
+    }
+    Ok(mesh)
 }
 
 /// Corners that share a normal: disjoint sets with path halving.

@@ -44,6 +44,20 @@ impl TriangleMesh {
         Some([0, 1].map(|i| a[i] * w + b[i] * u + c[i] * v))
     }
 
+    /// The colour at barycentric weights (u, v) of the second and third corner; `None` if the mesh
+    /// has none.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    #[must_use]
+    #[inline]
+    pub fn colour_at(&self, triangle: usize, u: f32, v: f32) -> Option<[f32; 3]> {
+        let colours = self.colours()?;
+        let [a, b, c] = self.triangles()[triangle].map(|i| colours[i as usize]);
+        let w = 1.0 - u - v;
+        Some([0, 1, 2].map(|i| a[i] * w + b[i] * u + c[i] * v))
+    }
+
     /// The area of a triangle.
     ///
     /// # Panics

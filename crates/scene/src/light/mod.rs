@@ -74,13 +74,20 @@ pub enum Light {
 }
 
 /// How light from a point weakens with the distance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Falloff {
     /// Not at all, as in the lecture.
     #[default]
     None,
     /// With the square of the distance, as in the world.
     InverseSquare,
+    /// The same, but it fades to nothing at a range: times 1 − (distance / range)⁴ (Khronos Group,
+    /// glTF extension `KHR_lights_punctual`, "Range Property").
+    InverseSquareWithin {
+        /// The distance from which on nothing arrives. Above 0.
+        range: f32,
+    },
 }
 
 impl Falloff {
@@ -88,6 +95,10 @@ impl Falloff {
         match self {
             Self::None => 1.0,
             Self::InverseSquare => 1.0 / (distance * distance),
+            Self::InverseSquareWithin { range } => {
+                let window = 1.0 - (distance / range).powi(4);
+                window.max(0.0) / (distance * distance)
+            }
         }
     }
 }
@@ -248,6 +259,10 @@ mod tests {
         };
         assert_eq!(incident(Falloff::None), Rgb::WHITE);
         assert_eq!(incident(Falloff::InverseSquare), Rgb::grey(0.25));
+        let within = |range| incident(Falloff::InverseSquareWithin { range });
+        assert_eq!(within(4.0), Rgb::grey(0.25 * 15.0 / 16.0));
+        assert_eq!(within(2.0), Rgb::BLACK);
+        assert_eq!(within(1.0), Rgb::BLACK);
         assert_eq!(light(Falloff::None).sample_li(position, unused), None);
     }
 

@@ -1,6 +1,8 @@
 //! Colours that change over a surface.
 
 mod image;
+mod picture;
+mod wrap;
 
 use std::sync::Arc;
 
@@ -9,6 +11,8 @@ use ombra_geometry::Point3;
 use crate::Rgb;
 
 pub use image::Image;
+pub use picture::{PictureTexture, UvTransform};
+pub use wrap::{Filter, Wrap};
 
 /// A colour for every place of a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,9 +28,8 @@ pub enum Texture {
         /// The side of a square, in units of the object. Above 0.
         size: f32,
     },
-    /// A picture over the surface parameters, repeated in both directions, interpolated between
-    /// its pixels; v runs upward.
-    Image(Arc<Image>),
+    /// A picture over the surface parameters.
+    Picture(PictureTexture),
 }
 
 impl Texture {
@@ -40,7 +43,7 @@ impl Texture {
                 let odd = |x: f32| (x / size).floor().rem_euclid(2.0) == 1.0;
                 colours[usize::from(odd(point.x) != odd(point.z))]
             }
-            Self::Image(image) => image.bilinear(uv),
+            Self::Picture(picture) => picture.at(uv),
         }
     }
 
@@ -52,7 +55,7 @@ impl Texture {
             Self::Checker {
                 colours: [a, b], ..
             } => a.lerp(*b, 0.5),
-            Self::Image(image) => image.average(),
+            Self::Picture(picture) => picture.average(),
         }
     }
 }
@@ -60,6 +63,13 @@ impl Texture {
 impl From<Rgb> for Texture {
     fn from(colour: Rgb) -> Self {
         Self::Constant(colour)
+    }
+}
+
+impl From<Arc<Image>> for Texture {
+    /// The picture repeated in both directions and interpolated between its pixels.
+    fn from(image: Arc<Image>) -> Self {
+        Self::Picture(PictureTexture::new(image))
     }
 }
 

@@ -117,7 +117,7 @@ impl Definition {
         let plain = Material::default();
         let diffuse = self
             .diffuse
-            .map_or(plain.diffuse, |kd| (kd * opacity).into());
+            .map_or_else(|| plain.diffuse.clone(), |kd| (kd * opacity).into());
         Material {
             name: name.to_owned(),
             diffuse,
@@ -147,6 +147,7 @@ impl Definition {
             fresnel: matches!(model, 4 | 5 | 7 | 9),
             internal_reflection: plain.internal_reflection,
             emission: self.emission.unwrap_or(Rgb::BLACK),
+            ..plain
         }
     }
 }

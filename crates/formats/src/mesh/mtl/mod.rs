@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ombra_scene::{Image, Material, Rgb, Texture};
+use ombra_scene::{Image, Material, Rgb};
 
 use super::obj::Unused;
 use crate::error::{Fault, FormatError, quoted};
@@ -155,7 +155,7 @@ impl<'a> Library<'a> {
                 Ok(input) => {
                     let image = self.image(&input)?;
                     let factor = material.diffuse.average();
-                    material.diffuse = Texture::Image(self.tinted(image, factor)?);
+                    material.diffuse = self.tinted(image, factor)?.into();
                 }
                 Err(finding) => findings.push(finding),
             }

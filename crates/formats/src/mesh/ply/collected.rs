@@ -240,6 +240,7 @@ impl Collected {
             normals: self.normals,
             uvs: self.uvs,
             triangles,
+            ..Raw::default()
         })
     }
 }

@@ -20,7 +20,7 @@ impl Whitted<'_> {
         traced: &Traced,
     ) -> Result<Rgb, Exception> {
         let scene = self.world.scene();
-        let diffuse = material.diffuse_at(place.object_point, place.uv);
+        let diffuse = material.diffuse_at(place.object_point, place.uv) * place.tint;
         let mut radiance = scene.ambient * diffuse;
         if diffuse.is_black() && material.specular.is_black() {
             return Ok(radiance);

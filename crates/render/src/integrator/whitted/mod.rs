@@ -208,15 +208,21 @@ impl RayProgram<Radiance> for Whitted<'_> {
         traced: &mut Traced,
     ) -> Result<(), Exception> {
         let material = self.world.material(hit);
+        let place = self.world.interaction(ray, hit);
+        let emission = material.emission_at(place.uv);
         if material.is_light_source() {
-            traced.radiance = material.emission;
+            traced.radiance = emission;
             return Ok(());
         }
-        let place = self.world.interaction(ray, hit);
         let side = Side::of(&place);
-        traced.radiance = material.emission
+        traced.radiance = emission
             + self.local(cx, &place, &side, material, traced)?
             + self.bounced(cx, &place, &side, material, traced)?;
+        // A ray that meets the back of a surface came through what is behind it.
+        if !material.absorption.is_black() && !place.is_front() {
+            let way = hit.t * ray.direction.length();
+            traced.radiance *= material.left_after(way);
+        }
         Ok(())
     }
 
