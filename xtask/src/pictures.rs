@@ -24,6 +24,9 @@ const MOST_BYTES: u64 = 150_000;
 /// What a check renders instead of a page's size and samples.
 const SMALL: [(&str, &str); 2] = [("--size", "64x48"), ("--spp", "1")];
 
+/// Options that name a place in the picture.
+const PLACES: [&str; 2] = ["--pixel", "--crop"];
+
 /// A picture, and the words after `ombra` that make it.
 #[derive(Debug, PartialEq, Eq)]
 struct Recipe {
@@ -197,8 +200,12 @@ impl Recipe {
     }
 }
 
-/// The words of a command at a small size, for the options that it takes.
+/// The words of a command at a small size, for the options that it takes. One that names a place in
+/// the picture keeps its size.
 fn small(mut words: Vec<String>, takes: impl Fn(&str) -> bool) -> Vec<String> {
+    if words.iter().any(|word| PLACES.contains(&word.as_str())) {
+        return words;
+    }
     for (flag, value) in SMALL.into_iter().filter(|(flag, _)| takes(flag)) {
         match words.iter().position(|word| word == flag) {
             Some(at) if at + 1 < words.len() => words[at + 1] = value.to_owned(),
@@ -267,6 +274,8 @@ mod tests {
         let all = small(page.clone(), |_| true);
         assert_eq!(all, words("render whitted --size 64x48 -o a.png --spp 1"));
         assert_eq!(small(page.clone(), |_| false), page);
+        let pixel = words("explain cornell --pixel 330,440 --svg a.svg");
+        assert_eq!(small(pixel.clone(), |_| true), pixel);
     }
 
     #[test]

@@ -69,16 +69,6 @@ impl<P: Primitives> Accel<P> {
         &self.primitives
     }
 
-    /// The box that holds every hit that counts: the bounds, padded by what rounding can do to a ray
-    /// from anywhere within 10¹⁰ extents.
-    pub(crate) fn hit_bounds(&self) -> Aabb {
-        if self.bounds.is_finite() && !self.bounds.is_empty() {
-            Aabb::enclosing(self.bounds.wide().padded(self.reach.hit_pad_limit()))
-        } else {
-            self.bounds
-        }
-    }
-
     /// Bytes of the structure alone.
     #[must_use]
     pub fn structure_bytes(&self) -> usize {

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use ombra_geometry::{Aabb, EdgeRule, GeometryId, InstanceId, Object, Transform, World};
+use ombra_geometry::{Aabb, EdgeRule, GeometryId, InstanceId, Object, Ray, Transform, World};
 
-use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Traversable as _, TraversalRay};
+use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Reach, Traversable as _, TraversalRay};
 
 /// One placement of a geometry.
 #[derive(Clone, Debug)]
@@ -19,6 +19,10 @@ pub struct Instance {
 /// Geometries and their placements: the primitives of the top level.
 ///
 /// A hit's `instance` is the index of the placement, its `geometry` that of the geometry.
+///
+/// A list of shapes that is placed once, or that has but one, does without a level of its own: each
+/// of its shapes is a primitive here. To make a ray ready for a structure costs more than to test a
+/// few shapes.
 #[derive(Clone, Debug)]
 pub struct Instances<P> {
     geometries: Vec<Arc<Accel<P>>>,
@@ -26,8 +30,17 @@ pub struct Instances<P> {
     /// In the order of `instances`; `None` where the placement moves nothing, so that a geometry
     /// placed as it is answers bit for bit like the geometry alone.
     object_from_world: Vec<Option<Transform<World, Object>>>,
-    /// In the order of `instances`: each hit asks for the box of its instance.
+    entries: Vec<Entry>,
+    /// In the order of `entries`: each hit asks for the box of its primitive.
     bounds: Vec<Aabb>,
+}
+
+/// A primitive of the top level.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    instance: u32,
+    /// A shape of that instance; otherwise it is all of it.
+    shape: Option<u32>,
 }
 
 impl<P: Primitives> Instances<P> {
@@ -47,14 +60,39 @@ impl<P: Primitives> Instances<P> {
             .iter()
             .map(|i| (!i.world_from_object.is_identity()).then(|| i.world_from_object.inverse()))
             .collect();
-        let bounds = instances
-            .iter()
-            .map(|i| bounds_of(i, &geometries[i.geometry.index()]))
-            .collect();
+        let mut placed = vec![0_u32; geometries.len()];
+        for instance in &instances {
+            placed[instance.geometry.index()] += 1;
+        }
+        let mut entries = Vec::with_capacity(instances.len());
+        let mut bounds = Vec::with_capacity(instances.len());
+        for (index, instance) in (0..).zip(&instances) {
+            let geometry = &geometries[instance.geometry.index()];
+            let shapes = geometry.primitives().plain();
+            let once = placed[instance.geometry.index()] == 1;
+            if let Some(shapes) = shapes.filter(|shapes| once || shapes.len() == 1) {
+                for shape in 0..shapes.len() as u32 {
+                    entries.push(Entry {
+                        instance: index,
+                        shape: Some(shape),
+                    });
+                    let own = shapes.bounds(shape);
+                    bounds.push(bounds_of(instance, own));
+                }
+            } else {
+                entries.push(Entry {
+                    instance: index,
+                    shape: None,
+                });
+                let own = geometry.bounds();
+                bounds.push(bounds_of(instance, own));
+            }
+        }
         Self {
             geometries,
             instances,
             object_from_world,
+            entries,
             bounds,
         }
     }
@@ -70,13 +108,23 @@ impl<P: Primitives> Instances<P> {
     pub fn instances(&self) -> &[Instance] {
         &self.instances
     }
+
+    #[inline]
+    fn local(&self, instance: u32, ray: &TraversalRay, t_max: f64) -> Ray<f64> {
+        let mut local = match &self.object_from_world[instance as usize] {
+            None => ray.ray,
+            Some(object_from_world) => object_from_world.ray(&ray.ray),
+        };
+        local.t_max = t_max;
+        local
+    }
 }
 
 impl<P: Primitives> Primitives for Instances<P> {
     type Prepared = EdgeRule;
 
     fn len(&self) -> usize {
-        self.instances.len()
+        self.entries.len()
     }
 
     fn bounds(&self, primitive: u32) -> Aabb {
@@ -98,17 +146,14 @@ impl<P: Primitives> Primitives for Instances<P> {
         report: &mut F,
     ) -> ControlFlow<()> {
         counter.test();
-        let geometry = self.instances[primitive as usize].geometry;
-        let mut local = match &self.object_from_world[primitive as usize] {
-            None => ray.ray,
-            Some(object_from_world) => object_from_world.ray(&ray.ray),
-        };
-        local.t_max = t_max;
+        let Entry { instance, shape } = self.entries[primitive as usize];
+        let geometry = self.instances[instance as usize].geometry;
+        let local = self.local(instance, ray, t_max);
         let mut terminated = ControlFlow::Continue(());
         let mut place = |candidate: &Candidate| {
             let placed = Candidate {
                 geometry,
-                instance: InstanceId(primitive),
+                instance: InstanceId(instance),
                 ..*candidate
             };
             let answer = report(&placed);
@@ -117,26 +162,43 @@ impl<P: Primitives> Primitives for Instances<P> {
             }
             answer
         };
-        self.geometries[geometry.index()].search_with(&local, *rule, counter, &mut place);
-        terminated
+        let accel = &self.geometries[geometry.index()];
+        match (shape, accel.primitives().plain()) {
+            (Some(shape), Some(shapes)) => shapes.test(&local, shape, &mut place),
+            _ => {
+                accel.search_with(&local, *rule, counter, &mut place);
+                terminated
+            }
+        }
     }
 
     fn bytes(&self) -> usize {
         self.geometries.iter().map(|g| g.bytes()).sum::<usize>()
             + size_of_val(self.instances.as_slice())
             + size_of_val(self.object_from_world.as_slice())
+            + size_of_val(self.entries.as_slice())
             + size_of_val(self.bounds.as_slice())
     }
 }
 
-/// The box around a placed geometry, and around every hit on it.
-fn bounds_of<P: Primitives>(instance: &Instance, geometry: &Accel<P>) -> Aabb {
-    // A hit found in object space can lie a little outside the geometry's bounds, and an uneven
-    // scale can make that more than the level above allows for. Where nothing is moved it does not.
+/// The box around something that is placed, and around every hit on it.
+fn bounds_of(instance: &Instance, own: Aabb) -> Aabb {
+    // A hit found in object space can lie a little outside of the bounds there, and an uneven scale
+    // can make that more than the level above allows for. Where nothing is moved it does not.
     if instance.world_from_object.is_identity() {
-        geometry.bounds()
+        own
     } else {
-        let around_hits = geometry.hit_bounds();
-        instance.world_from_object.aabb(&around_hits)
+        instance.world_from_object.aabb(&around_hits(own))
+    }
+}
+
+/// The box that holds every hit that counts on something with these bounds: padded by what rounding
+/// can do to a ray from anywhere within 10¹⁰ extents.
+fn around_hits(bounds: Aabb) -> Aabb {
+    if bounds.is_finite() && !bounds.is_empty() {
+        let pad = Reach::of(&bounds).hit_pad_limit();
+        Aabb::enclosing(bounds.wide().padded(pad))
+    } else {
+        bounds
     }
 }

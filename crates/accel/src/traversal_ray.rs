@@ -45,6 +45,7 @@ const PAD_IN_DOUBLE: f64 = 8.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     bounds: Aabb<f64>,
+    centre: Point3<f64>,
     extent: f64,
     /// The largest coordinate.
     coordinate: f64,
@@ -63,6 +64,7 @@ impl Reach {
         };
         Self {
             bounds,
+            centre: bounds.centre(),
             extent,
             coordinate,
         }
@@ -94,19 +96,7 @@ impl Reach {
     /// Whether a point is so far away that the structure is small from there.
     #[inline]
     fn is_far_from(&self, point: Point3<f64>) -> bool {
-        (point - self.bounds.centre()).max_norm() > FAR * self.extent
-    }
-
-    /// Whether single precision will do for this ray: the structure is near, the origin is a
-    /// single or near enough to one (that of an instance's ray may not be, if the instance lies far
-    /// out in its own space), and neither the structure's size nor the ray's direction is where
-    /// products of singles over- or underflow.
-    fn single(&self, ray: &Ray<f64>, farthest: f64) -> bool {
-        let rounded = ray.origin.cast::<f32>().wide();
-        !self.is_far_from(ray.origin)
-            && (ray.origin - rounded).max_norm() <= 0.5 * f64::from(f32::EPSILON) * farthest
-            && (1e-7..=1e10).contains(&self.extent)
-            && (1e-10..=1e10).contains(&ray.direction.max_norm())
+        (point - self.centre).max_norm() > FAR * self.extent
     }
 }
 
@@ -130,7 +120,9 @@ pub struct TraversalRay {
     pub single_box_pad: f64,
     /// From the origin to the farthest corner of the structure.
     farthest: f64,
-    reach: Reach,
+    /// Of the structure.
+    extent: f64,
+    is_far: bool,
 }
 
 impl TraversalRay {
@@ -143,7 +135,8 @@ impl TraversalRay {
         }
         let d = ray.direction;
         let farthest = farthest_corner(ray.origin, &reach.bounds);
-        let (box_start, box_origin, from_there) = if reach.is_far_from(ray.origin) {
+        let is_far = reach.is_far_from(ray.origin);
+        let (box_start, box_origin, from_there) = if is_far {
             nearest_to(ray, &reach.bounds)
         } else {
             (0.0, ray.origin, farthest)
@@ -161,16 +154,26 @@ impl TraversalRay {
             box_pad,
             single_box_pad: box_pad + HIT_PAD * (from_there + box_pad),
             farthest,
-            reach: *reach,
+            extent: reach.extent,
+            is_far,
         })
     }
 
-    /// Whether tests of primitives may use single precision. Worked out here and not for every ray,
-    /// since shapes and instances do not ask.
+    /// Whether tests of primitives may use single precision: the structure is near, the origin is a
+    /// single or near enough to one (that of an instance's ray may not be, if the instance lies far
+    /// out in its own space), and neither the structure's size nor the ray's direction is where
+    /// products of singles over- or underflow.
+    ///
+    /// Worked out here and not for every ray, since shapes and instances do not ask.
     #[must_use]
     #[inline]
     pub fn single(&self) -> bool {
-        self.reach.single(&self.ray, self.farthest)
+        let rounded = self.ray.origin.cast::<f32>().wide();
+        let off = (self.ray.origin - rounded).max_norm();
+        !self.is_far
+            && off <= 0.5 * f64::from(f32::EPSILON) * self.farthest
+            && (1e-7..=1e10).contains(&self.extent)
+            && (1e-10..=1e10).contains(&self.ray.direction.max_norm())
     }
 
     /// The part of the ray up to `t_max` within a box that is padded by `box_pad`, its t counted

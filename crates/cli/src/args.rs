@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::commands::explain::ExplainArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
 use ombra::geometry::triangle::TriangleTest;
@@ -21,6 +22,13 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Render a scene or a model to a picture
     Render(Box<RenderArgs>),
+    /// Rasterize and ray trace a scene, and compare the two loops
+    Compare(Box<CompareArgs>),
+    /// The minimal ray tracing contest of 1987: its scenes, its format, its rules
+    #[command(subcommand)]
+    Minray(MinrayCommand),
+    /// Tell how a pixel came about: all of its rays
+    Explain(Box<ExplainArgs>),
     /// Say what a file holds: a model, a scene, a picture
     Info(InfoArgs),
     /// List the built-in scenes
@@ -92,6 +100,119 @@ pub(crate) struct RenderArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// A scene file (.toml), a model (.obj, .ply, .stl, each also with .gz) or a built-in scene's name
+    pub(crate) scene: String,
+
+    /// The folder for the pictures and the page; made if it is not there [default: SCENE-compared]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Width and height in pixels [default: what the scene file says, else 960x540]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(crate) size: Option<Size>,
+
+    /// Samples a pixel; 1 goes through the centre of the pixel [default: what the scene file says, else 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
+    pub(crate) spp: Option<u32>,
+
+    /// How often light may be reflected or transmitted [default: what the scene file says, else 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_DEPTH)))]
+    pub(crate) max_depth: Option<u32>,
+
+    /// Another seed gives other random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+
+    /// The acceleration structure of the rays; `ombra structures` lists them
+    #[arg(long, value_name = "NAME", default_value = StructureKind::default().name(), value_parser = accel)]
+    pub(crate) accel: Accel,
+
+    /// How rays are tested against triangles
+    #[arg(long, value_name = "NAME", default_value_t, value_parser = named(&TriangleTest::ALL, TriangleTest::name, TriangleTest::line))]
+    pub(crate) triangle_test: TriangleTest,
+
+    /// Threads to use; 0 means all
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(crate) threads: u32,
+
+    /// Compare these pixels only: left, top, right, bottom; right and bottom are not included
+    #[arg(long, value_name = "x0,y0,x1,y1", value_parser = crop)]
+    pub(crate) crop: Option<Crop>,
+
+    /// Which axis of a model points up [default: z for .stl, y otherwise]
+    #[arg(long, value_enum)]
+    pub(crate) up: Option<Up>,
+
+    /// No progress bar, no talk
+    #[arg(long)]
+    pub(crate) quiet: bool,
+
+    /// The numbers on standard output as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl CompareArgs {
+    /// The same, as one would ask for a picture.
+    pub(crate) fn as_render(&self) -> RenderArgs {
+        RenderArgs {
+            scene: self.scene.clone(),
+            output: PathBuf::new(),
+            integrator: IntegratorKind::default(),
+            size: self.size,
+            spp: self.spp,
+            max_depth: self.max_depth,
+            seed: self.seed,
+            accel: self.accel,
+            triangle_test: self.triangle_test,
+            threads: self.threads,
+            device: Device::Cpu,
+            crop: self.crop,
+            up: self.up,
+            quiet: self.quiet,
+            json: self.json,
+        }
+    }
+}
+
+/// The first scene of the contest.
+pub(crate) const FIRST_OF_CONTEST: &str = "test1";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum MinrayCommand {
+    /// Render a scene of the contest and write the picture in its format
+    Render(MinrayRenderArgs),
+    /// Score a picture in the contest's format, from any program, by the contest's rules
+    Verify(MinrayVerifyArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MinrayRenderArgs {
+    /// A scene of the contest: a ray.h, or test1, test2, test3
+    #[arg(default_value = FIRST_OF_CONTEST)]
+    pub(crate) scene: String,
+
+    /// Where to write the picture [default: standard output]
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MinrayVerifyArgs {
+    /// The picture: "xsize ysize", then "r g b" for each pixel
+    pub(crate) file: PathBuf,
+
+    /// The scene that it shows: a ray.h, or test1, test2, test3
+    #[arg(long, value_name = "SCENE", default_value = FIRST_OF_CONTEST)]
+    pub(crate) scene: String,
+
+    /// As JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
     /// The file
     pub(crate) file: PathBuf,
@@ -137,7 +258,7 @@ pub(crate) enum Up {
 }
 
 /// Parses the name of one of a closed set, so that help and errors list all of them.
-fn named<T: Copy + Send + Sync + 'static>(
+pub(crate) fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
     line: fn(T) -> &'static str,
@@ -152,14 +273,14 @@ fn named<T: Copy + Send + Sync + 'static>(
     })
 }
 
-fn accel(text: &str) -> Result<Accel, UnknownStructure> {
+pub(crate) fn accel(text: &str) -> Result<Accel, UnknownStructure> {
     Ok(Accel {
         kind: text.parse()?,
         alias: StructureAlias::of(text),
     })
 }
 
-fn size(text: &str) -> Result<Size, String> {
+pub(crate) fn size(text: &str) -> Result<Size, String> {
     const WANTED: &str =
         "two whole numbers from 1 to 65536 with an x between them, such as 960x540";
     const { assert!(MAX_SIDE == 65536) };

@@ -20,6 +20,9 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         None => commands::render::default_scene(),
         Some(Command::Render(args)) => commands::render::run(&args),
+        Some(Command::Compare(args)) => commands::compare::run(&args),
+        Some(Command::Minray(command)) => commands::minray::run(&command),
+        Some(Command::Explain(args)) => commands::explain::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),
         Some(Command::Scenes(args)) => commands::lists::scenes(&args),
         Some(Command::Structures(args)) => commands::lists::structures(&args),

@@ -23,11 +23,13 @@
 //! line or byte, what is wrong there and what would be right; what it can pass over is a
 //! [`Finding`].
 
+pub mod minray;
 pub mod scene;
 pub mod sha256;
 
 mod error;
 mod finding;
+mod glb;
 mod gltf;
 mod image;
 mod info;
@@ -36,9 +38,11 @@ mod limits;
 mod mesh;
 mod number;
 mod source;
+mod whole;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
+pub use glb::{GlbMaterial, GlbMesh, GlbModel};
 pub use gltf::{GltfFile, GltfInfo, parse_gltf, read_gltf};
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image,
@@ -48,3 +52,4 @@ pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use input::Assets;
 pub use limits::Limits;
 pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, with_normals};
+pub use whole::write_whole;

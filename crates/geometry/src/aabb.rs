@@ -99,9 +99,8 @@ impl<T: Real> Aabb<T> {
     #[must_use]
     #[inline]
     pub fn contains(&self, p: Point3<T>) -> bool {
-        Axis::ALL
-            .iter()
-            .all(|&a| self.min[a] <= p[a] && p[a] <= self.max[a])
+        let above = self.min.x <= p.x && self.min.y <= p.y && self.min.z <= p.z;
+        above && p.x <= self.max.x && p.y <= self.max.y && p.z <= self.max.z
     }
 
     /// Whether another box lies within this one.

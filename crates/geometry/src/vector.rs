@@ -201,6 +201,10 @@ macro_rules! direction {
             #[must_use]
             #[inline]
             pub fn normalized(self) -> Option<Self> {
+                let squared = self.x * self.x + self.y * self.y + self.z * self.z;
+                if squared > T::of(1e-30) && squared < T::of(1e30) {
+                    return Some(self / squared.sqrt());
+                }
                 // Dividing by the largest component first keeps the squares from over- and
                 // underflowing, so that any finite non-zero direction has a unit one.
                 let largest = self.x.abs().max(self.y.abs()).max(self.z.abs());
@@ -379,7 +383,9 @@ impl<T: Real> Vector3<T> {
     #[must_use]
     #[inline]
     pub fn max_norm(self) -> T {
-        self.x.abs().max(self.y.abs()).max(self.z.abs())
+        // Comparisons and not `max`, which takes more instructions to see to NaN.
+        let larger = |a: T, b: T| if a > b { a } else { b };
+        larger(self.x.abs(), larger(self.y.abs(), self.z.abs()))
     }
 
     /// The axis with the largest absolute component; the first of equals.

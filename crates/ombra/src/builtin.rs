@@ -1,5 +1,8 @@
 //! The scenes that come with ombra, by name: the files of the folder `scenes`.
 
+use ombra_formats::FormatError;
+use ombra_formats::minray::{Contest, parse_contest};
+
 /// A scene that comes with ombra.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Builtin {
@@ -7,8 +10,29 @@ pub struct Builtin {
     pub name: &'static str,
     /// What there is to see, in one line.
     pub line: &'static str,
-    /// The scene file.
+    /// The file.
     pub text: &'static str,
+    /// What kind of file it is.
+    pub kind: BuiltinKind,
+}
+
+/// The kinds of files that scenes come in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BuiltinKind {
+    /// A scene file.
+    Scene,
+    /// A `ray.h` of the minimal ray tracing contest.
+    Contest,
+}
+
+impl Builtin {
+    /// The scene of the contest that this is; `None` if it is none.
+    ///
+    /// # Errors
+    /// When its file does not hold one.
+    pub fn contest(&self) -> Option<Result<Contest, FormatError>> {
+        (self.kind == BuiltinKind::Contest).then(|| parse_contest(self.text.as_bytes()))
+    }
 }
 
 macro_rules! scene {
@@ -17,6 +41,18 @@ macro_rules! scene {
             name: $name,
             line: $line,
             text: include_str!(concat!("../../../scenes/", $name, ".toml")),
+            kind: BuiltinKind::Scene,
+        }
+    };
+}
+
+macro_rules! contest {
+    ($name:literal, $file:literal, $line:literal) => {
+        Builtin {
+            name: $name,
+            line: $line,
+            text: include_str!(concat!("../../../scenes/minray/", $file, ".h")),
+            kind: BuiltinKind::Contest,
         }
     };
 }
@@ -36,6 +72,21 @@ pub const ALL: &[Builtin] = &[
     scene!(
         "card",
         "Kensler's business card: mirror balls that spell his initials"
+    ),
+    contest!(
+        "minray",
+        "test1",
+        "the minimal ray tracing contest of 1987: a glass ball before two others"
+    ),
+    contest!(
+        "minray:test2",
+        "test2",
+        "its second scene: through a bubble that shines a little"
+    ),
+    contest!(
+        "minray:test3",
+        "test3",
+        "its third scene: two rows of balls, and a lamp overhead"
     ),
 ];
 

@@ -53,12 +53,7 @@ impl<'a> Exposure<'a> {
     ) -> Result<(), Exception> {
         let [x, y, _] = launch_index;
         let place = [self.crop.x0 + x, self.crop.y0 + y];
-        let numbers = Numbers::new(self.sampler, self.seed, place);
-        let numbers = if self.centred {
-            numbers.centred()
-        } else {
-            numbers
-        };
+        let numbers = self.numbers(place);
         let mut exposed = *pixel;
         for index in self.samples.clone() {
             let sample = numbers.sample(index);
@@ -69,18 +64,62 @@ impl<'a> Exposure<'a> {
         Ok(())
     }
 
+    /// Which samples of each pixel are taken.
+    pub(crate) fn samples(&self) -> Range<u32> {
+        self.samples.clone()
+    }
+
+    /// Whether all samples lie in the middle of their pixel.
+    pub(crate) const fn is_centred(&self) -> bool {
+        self.centred
+    }
+
+    /// The same with all rays through the middle of the lens.
+    pub(crate) fn through_pinhole(self) -> Self {
+        Self {
+            has_lens: false,
+            ..self
+        }
+    }
+
+    /// The numbers of a sample of a pixel.
     #[inline]
-    fn ray(&self, [x, y]: [u32; 2], sample: &Sample) -> Ray {
-        let within = sample.pair(Dimension::Pixel);
+    pub(crate) fn sample(&self, pixel: [u32; 2], index: u32) -> Sample {
+        self.numbers(pixel).sample(index)
+    }
+
+    /// Where in the picture a sample of a pixel is, in pixels from the upper left corner.
+    #[inline]
+    pub(crate) fn place(pixel: [u32; 2], sample: &Sample) -> [f64; 2] {
+        in_picture(pixel, sample).map(f64::from)
+    }
+
+    #[inline]
+    fn numbers(&self, pixel: [u32; 2]) -> Numbers {
+        let numbers = Numbers::new(self.sampler, self.seed, pixel);
+        if self.centred {
+            numbers.centred()
+        } else {
+            numbers
+        }
+    }
+
+    /// The ray of a sample of a pixel.
+    #[inline]
+    pub(crate) fn ray(&self, pixel: [u32; 2], sample: &Sample) -> Ray {
+        let [x, y] = in_picture(pixel, sample);
         let lens = if self.has_lens {
             sample.pair(Dimension::Lens)
         } else {
             [0.5; 2]
         };
-        let screen = [
-            (x as f32 + within[0]) / self.picture[0] as f32,
-            (y as f32 + within[1]) / self.picture[1] as f32,
-        ];
+        let screen = [x / self.picture[0] as f32, y / self.picture[1] as f32];
         self.camera.ray(self.aspect, CameraSample { screen, lens })
     }
+}
+
+#[inline]
+fn in_picture([x, y]: [u32; 2], sample: &Sample) -> [f32; 2] {
+    let [dx, dy] = sample.pair(Dimension::Pixel);
+    [x as f32 + dx, y as f32 + dy]
 }

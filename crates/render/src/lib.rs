@@ -38,12 +38,16 @@
 //! # How to find things
 //! [`film`]: what is collected. [`sampler`]: where rays go through a pixel. [`display`]: how numbers
 //! that are no light are shown. `integrator`: one file each. `optics`: the laws of reflection and
-//! refraction.
+//! refraction. [`raster`]: the other loop, without rays.
 
+pub mod compare;
 pub mod display;
 pub mod film;
 pub mod optics;
+pub mod raster;
 pub mod sampler;
+
+pub mod explain;
 
 mod exposure;
 mod integrator;

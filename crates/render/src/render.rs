@@ -2,12 +2,16 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use ombra_pipeline::{Control, Cpu, Done, Exception, LaunchError, LaunchException, RayGeneration};
+use ombra_pipeline::{
+    Control, Cpu, Done, Exception, LaunchError, LaunchException, LaunchReport, RayGeneration,
+};
 use ombra_scene::{Camera, Rgb, World};
 
+use crate::compare::LocalLight;
 use crate::exposure::Exposure;
 use crate::film::{Crop, Film, Pixel};
 use crate::integrator::{AmbientOcclusion, Cost, Depth, Normals, Whitted};
+use crate::raster::Raster;
 use crate::settings::{MAX_DEPTH, MAX_PIXELS, MAX_SIDE, MAX_SPP};
 use crate::{IntegratorKind, Progress, Settings, Watch};
 
@@ -81,6 +85,9 @@ pub enum RenderError {
         /// How many bounces there was room for.
         bounces: u32,
     },
+    /// A camera in whose picture straight lines are not straight, so that no triangle is one there.
+    #[error("this camera cannot be rasterized: straight edges are not straight in its picture")]
+    NotRasterizable,
     /// A ray program raised an exception: a camera whose numbers make no rays.
     #[error(transparent)]
     Launch(LaunchError),
@@ -150,6 +157,10 @@ pub fn render(
         IntegratorKind::Whitted => job.run(watch, |exposure| {
             Whitted::new(world, exposure, settings.max_depth)
         }),
+        IntegratorKind::Raster => {
+            let raster = cpu.install(|| Raster::new(world, camera, settings))?;
+            job.rasterize(watch, &raster)
+        }
         IntegratorKind::Normals => job.run(watch, |exposure| Normals::new(world, exposure)),
         IntegratorKind::Depth => job.run(watch, |exposure| Depth::new(world, exposure)),
         IntegratorKind::Cost => job.run(watch, |exposure| Cost::new(world, exposure)),
@@ -157,6 +168,27 @@ pub fn render(
             job.run(watch, |exposure| AmbientOcclusion::new(world, exposure))
         }
     }
+}
+
+/// Renders local shading of what rays meet: what [`IntegratorKind::Raster`] draws, the other way.
+pub(crate) fn render_local(
+    world: &World,
+    camera: &Camera,
+    settings: &Settings,
+    cpu: &Cpu,
+    watch: Watch<'_>,
+) -> Result<Rendering, RenderError> {
+    settings.validate()?;
+    let kind = IntegratorKind::Raster;
+    let job = Job {
+        camera,
+        settings,
+        cpu,
+        quantity: kind.quantity(world, camera, settings.response),
+    };
+    job.run(watch, |exposure| {
+        LocalLight::new(world, exposure.through_pinhole())
+    })
 }
 
 /// A rendering under way, whatever the integrator.
@@ -173,6 +205,39 @@ impl<'a> Job<'a> {
         &self,
         watch: Watch<'_>,
         integrator: impl Fn(Exposure<'a>) -> P,
+    ) -> Result<Rendering, RenderError> {
+        let extent = self.settings.extent();
+        let size = [extent.width(), extent.height(), 1];
+        self.passes(watch, |exposure, pixels, control| {
+            let program = integrator(exposure);
+            Ok(self.cpu.launch(&program, size, pixels, control)?)
+        })
+    }
+
+    /// No rays, and so no launch.
+    fn rasterize(&self, watch: Watch<'_>, raster: &Raster<'_>) -> Result<Rendering, RenderError> {
+        self.passes(watch, |exposure, pixels, control| {
+            let done = |indices| {
+                if let Some(progress) = control.progress {
+                    progress(Done { indices, rays: 0 });
+                }
+            };
+            let exposure = exposure.through_pinhole();
+            let pass = self
+                .cpu
+                .install(|| raster.expose(&exposure, pixels, control.stop, &done));
+            Ok(LaunchReport {
+                stopped: pass.stopped,
+                ..LaunchReport::default()
+            })
+        })
+    }
+
+    /// Pass after pass; `expose` adds the samples of one to all pixels of the film.
+    fn passes(
+        &self,
+        watch: Watch<'_>,
+        expose: impl Fn(Exposure<'a>, &mut [Pixel], &Control<'_>) -> Result<LaunchReport, RenderError>,
     ) -> Result<Rendering, RenderError> {
         let Settings {
             width, height, spp, ..
@@ -205,10 +270,8 @@ impl<'a> Job<'a> {
                 stop,
                 progress: Some(&report),
             };
-            let program = integrator(Exposure::new(self.camera, self.settings, begin..end));
-            let size = [extent.width(), extent.height(), 1];
-            let pixels = rendering.film.pixels_mut();
-            let launch = self.cpu.launch(&program, size, pixels, &control)?;
+            let exposure = Exposure::new(self.camera, self.settings, begin..end);
+            let launch = expose(exposure, rendering.film.pixels_mut(), &control)?;
             rendering.rays += launch.rays;
             rendering.stopped = launch.stopped;
             if let Some(pass) = &mut pass {

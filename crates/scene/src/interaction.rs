@@ -55,7 +55,6 @@ impl Interaction {
         geometry: &Geometry,
         world_from_object: &Transform<Object, World>,
     ) -> Self {
-        let wo = -ray.direction.normalized().unwrap_or(ray.direction);
         let local = match geometry {
             Geometry::Mesh(mesh) => Local::of_mesh(mesh.mesh(), hit),
             Geometry::Shapes(shapes) => Local::of_shape(
@@ -65,6 +64,11 @@ impl Interaction {
                 world_from_object,
             ),
         };
+        Self::of_local(ray, &local, world_from_object)
+    }
+
+    fn of_local(ray: &Ray, local: &Local, world_from_object: &Transform<Object, World>) -> Self {
+        let wo = -ray.direction.normalized().unwrap_or(ray.direction);
         let point: Point3 = world_from_object.point(local.point).cast();
         let object_point: Point3 = local.point.cast();
         let unit = |n: Normal3<f64>| {
@@ -91,6 +95,28 @@ impl Interaction {
                 + in_object * growth(world_from_object)
                 + local.slide,
         }
+    }
+
+    /// Makes a place of what is known of a surface in the space of its object: a point of it, its
+    /// normal there (of any length) and its parameters. `ray` is the one that sees it.
+    #[must_use]
+    pub fn of_surface(
+        ray: &Ray,
+        point: Point3<f64>,
+        normal: Normal3<f64>,
+        uv: [f32; 2],
+        world_from_object: &Transform<Object, World>,
+    ) -> Self {
+        let local = Local {
+            point,
+            normal,
+            interpolated_normal: None,
+            uv,
+            tint: Rgb::WHITE,
+            test_extent: 0.0,
+            slide: SLIDE_ROUNDING * point.to_vector().max_norm() as f32,
+        };
+        Self::of_local(ray, &local, world_from_object)
     }
 
     /// Whether the ray came from the outside.

@@ -29,15 +29,22 @@ impl World {
     /// When the description does not fit together.
     pub fn build(scene: Scene, kind: StructureKind) -> Result<Self, SceneError> {
         scene.validate()?;
+        let mut placed = vec![0_u32; scene.geometries.len()];
+        for object in &scene.objects {
+            placed[object.geometry.index()] += 1;
+        }
         let geometries = scene
             .geometries
             .iter()
-            .map(|geometry| {
-                // One primitive needs no structure: it is what the upper level has found.
-                let kind = if geometry.len() > 1 {
-                    kind
-                } else {
+            .zip(placed)
+            .map(|(geometry, placed)| {
+                // These are in the structure of the upper level, primitive by primitive.
+                let in_upper_level =
+                    geometry.len() <= 1 || placed <= 1 && matches!(geometry, Geometry::Shapes(_));
+                let kind = if in_upper_level {
                     StructureKind::BruteForce
+                } else {
+                    kind
                 };
                 Arc::new(Accel::build(geometry.clone(), kind))
             })

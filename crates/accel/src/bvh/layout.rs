@@ -1,35 +1,38 @@
 //! The finished tree: one flat array.
 
-use ombra_geometry::{Aabb, Point3};
+use ombra_geometry::{Aabb, Axis, Point3};
 
 use super::build::{BinaryNode, BinaryTree};
 
-/// A node, to the byte:
-///
-/// | bytes  | inner node                          | leaf                             |
-/// |--------|-------------------------------------|----------------------------------|
-/// | 0..12  | `min`: smallest corner, x y z       | the same                         |
-/// | 12..16 | `first`: where its two children are | `first`: its first primitive     |
-/// | 16..28 | `max`: largest corner, x y z        | the same                         |
-/// | 28..32 | `count`: 0                          | `count`: how many primitives, ≥ 1 |
-///
-/// Each corner and the number behind it make one 16-byte vector.
+/// A node by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
 pub(super) struct Node {
-    pub(super) min: [f32; 3],
+    /// Its box.
+    pub(super) bounds: Aabb,
     /// An index into `Layout::siblings`, or, of a leaf, into `Layout::primitives`.
     pub(super) first: u32,
-    pub(super) max: [f32; 3],
+    /// How many primitives a leaf has, at least 1; otherwise 0.
     pub(super) count: u32,
 }
 
-/// The two children of a node: always wanted together, so they share a cache line.
+/// The two children a and b of a node: always wanted together, so they share a cache line and are
+/// tested as one. To the byte, all of it 32-bit numbers:
+///
+/// | bytes  | field       | holds                                          |
+/// |--------|-------------|------------------------------------------------|
+/// | 0..16  | `planes[0]` | x: lowest of a, lowest of b, highest of a, of b |
+/// | 16..32 | `planes[1]` | the same in y                                  |
+/// | 32..48 | `planes[2]` | the same in z                                  |
+/// | 48..56 | `first`     | [`Node::first`] of a, of b                     |
+/// | 56..64 | `count`     | [`Node::count`] of a, of b                     |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub(super) struct Siblings(pub(super) [Node; 2]);
+pub(super) struct Siblings {
+    pub(super) planes: [[f32; 4]; 3],
+    pub(super) first: [u32; 2],
+    pub(super) count: [u32; 2],
+}
 
-const _: () = assert!(size_of::<Node>() == 32);
 const _: () = assert!(size_of::<Siblings>() == 64);
 
 /// The finished tree, in depth-first order.
@@ -70,33 +73,49 @@ fn lay(tree: &BinaryTree, is_leaf: &[bool], index: usize, siblings: &mut Vec<Sib
     }
     let place = siblings.len();
     let unset = Node::new(node, 0, 0);
-    siblings.push(Siblings([unset; 2]));
+    siblings.push(Siblings::new([unset; 2]));
     let children = tree.children(index);
-    siblings[place] = Siblings(children.map(|child| lay(tree, is_leaf, child, siblings)));
+    siblings[place] = Siblings::new(children.map(|child| lay(tree, is_leaf, child, siblings)));
     Node::new(node, place as u32, 0)
 }
 
 impl Node {
     fn new(node: &BinaryNode, first: u32, count: u32) -> Self {
         Self {
-            min: node.bounds.min.to_array(),
+            bounds: node.bounds,
             first,
-            max: node.bounds.max.to_array(),
             count,
         }
     }
 
-    /// Its box.
-    pub(super) fn bounds(&self) -> Aabb {
-        Aabb {
-            min: Point3::from(self.min),
-            max: Point3::from(self.max),
+    /// Whether it holds primitives.
+    pub(super) const fn is_leaf(&self) -> bool {
+        self.count > 0
+    }
+}
+
+impl Siblings {
+    pub(super) fn new([a, b]: [Node; 2]) -> Self {
+        let planes = Axis::ALL.map(|axis| {
+            let (a, b) = (a.bounds, b.bounds);
+            [a.min[axis], b.min[axis], a.max[axis], b.max[axis]]
+        });
+        Self {
+            planes,
+            first: [a.first, b.first],
+            count: [a.count, b.count],
         }
     }
 
-    /// Whether it holds primitives.
-    #[inline]
-    pub(super) const fn is_leaf(&self) -> bool {
-        self.count > 0
+    /// The two, each by itself.
+    pub(super) fn nodes(&self) -> [Node; 2] {
+        [0, 1].map(|child| Node {
+            bounds: Aabb {
+                min: Point3::from(self.planes.map(|plane| plane[child])),
+                max: Point3::from(self.planes.map(|plane| plane[child + 2])),
+            },
+            first: self.first[child],
+            count: self.count[child],
+        })
     }
 }

@@ -3,7 +3,7 @@
 use ombra_geometry::Aabb;
 
 use super::collapse::{MAX_LEAF, TEST_COST, TRAVERSAL_COST};
-use super::layout::{Layout, Node, Siblings};
+use super::layout::{Layout, Node};
 use crate::Bounded;
 
 /// What a tree is like.
@@ -95,7 +95,7 @@ pub(super) fn validate(
     }
     if let Some(root) = &layout.root {
         walk.node(root, 0)?;
-        walk.statistics.sah_cost = walk.area_cost / root.bounds().wide().half_area();
+        walk.statistics.sah_cost = walk.area_cost / root.bounds.wide().half_area();
     }
     for (primitive, (bounds, &found)) in (0..).zip(walk.boxes.iter().zip(&walk.found)) {
         if found != u32::from(bounds.is_some()) {
@@ -130,13 +130,13 @@ impl Walk<'_> {
             count: 0,
         };
         let siblings = self.layout.siblings.get(node.first as usize);
-        let Siblings(children) = siblings.ok_or(range)?;
-        self.area_cost += TRAVERSAL_COST * node.bounds().wide().half_area();
+        let children = siblings.ok_or(range)?.nodes();
+        self.area_cost += TRAVERSAL_COST * node.bounds.wide().half_area();
         for child in children {
-            if !node.bounds().encloses(&child.bounds()) {
+            if !node.bounds.encloses(&child.bounds) {
                 return Err(InvalidBvh::NotEnclosed { primitive: None });
             }
-            self.node(child, depth + 1)?;
+            self.node(&child, depth + 1)?;
         }
         Ok(())
     }
@@ -154,7 +154,7 @@ impl Walk<'_> {
                 primitive,
                 found: 1,
             };
-            if !leaf.bounds().encloses(&bounds.ok_or(unknown)?) {
+            if !leaf.bounds.encloses(&bounds.ok_or(unknown)?) {
                 let primitive = Some(primitive);
                 return Err(InvalidBvh::NotEnclosed { primitive });
             }
@@ -164,7 +164,7 @@ impl Walk<'_> {
         statistics.leaves += 1;
         statistics.largest_leaf = statistics.largest_leaf.max(count as usize);
         statistics.depth = statistics.depth.max(depth);
-        self.area_cost += TEST_COST * f64::from(count) * leaf.bounds().wide().half_area();
+        self.area_cost += TEST_COST * f64::from(count) * leaf.bounds.wide().half_area();
         Ok(())
     }
 }

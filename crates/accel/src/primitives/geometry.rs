@@ -70,4 +70,12 @@ impl Primitives for Geometry {
             Self::Shapes(shapes) => shapes.bytes(),
         }
     }
+
+    #[inline]
+    fn plain(&self) -> Option<&Shapes> {
+        match self {
+            Self::Mesh(_) => None,
+            Self::Shapes(shapes) => Some(shapes),
+        }
+    }
 }

@@ -51,6 +51,12 @@ pub trait Primitives: Send + Sync {
 
     /// Bytes held on the heap, structures of a lower level included.
     fn bytes(&self) -> usize;
+
+    /// The same list where its primitives need nothing worked out for a ray, so that a level above
+    /// may test them itself.
+    fn plain(&self) -> Option<&Shapes> {
+        None
+    }
 }
 
 /// What to make of a hit.

@@ -13,7 +13,8 @@ use ombra::formats::scene::Picture;
 use ombra::formats::{ImageBuffer, ImageFormat, Metadata, OutputFile, write_image};
 use ombra::geometry::Vector3;
 use ombra::pipeline::Cpu;
-use ombra::render::{Rendering, Settings, Watch};
+use ombra::render::raster::notice;
+use ombra::render::{IntegratorKind, Rendering, Settings, Watch};
 use ombra::scene::World;
 use ombra::{LoadOptions, Loaded};
 use serde::Serialize;
@@ -189,6 +190,12 @@ fn render(
     stop: &AtomicBool,
 ) -> anyhow::Result<(Rendering, Duration)> {
     let camera = ombra::camera(world, settings.aspect());
+    if settings.integrator == IntegratorKind::Raster
+        && let Some(notice) = notice(&camera)
+    {
+        let talk = Talk { quiet: args.quiet };
+        talk.say(&format!("{}: {notice}", args.scene));
+    }
     let display = Display::new(!args.quiet && io::stderr().is_terminal());
     let progress = |progress| display.update(progress);
     let mut pass = |film: &_| display.show(film);
@@ -251,7 +258,7 @@ fn command() -> String {
         .join(" ")
 }
 
-fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {
+pub(super) fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {
     let options = LoadOptions {
         up: args.up.map(up),
         triangle_test: args.triangle_test,
@@ -260,7 +267,7 @@ fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {
     Ok(ombra::load(&args.scene, &options)?)
 }
 
-fn settings(args: &RenderArgs, picture: Picture) -> Settings {
+pub(super) fn settings(args: &RenderArgs, picture: Picture) -> Settings {
     let of_scene = picture.size.map(|[width, height]| Size { width, height });
     let Size { width, height } = args.size.or(of_scene).unwrap_or(SIZE);
     let default = Settings::default();
@@ -301,6 +308,13 @@ fn summary(statistics: &Statistics<'_>) -> String {
     } else {
         String::new()
     };
+    if statistics.rays == 0 && statistics.integrator == IntegratorKind::Raster.name() {
+        return format!(
+            "{kept}{output} ({width}x{height}, {spp} spp, {} rasterized in {:.2} s, without rays)",
+            counted(statistics.primitives, "primitive"),
+            statistics.seconds,
+        );
+    }
     format!(
         "{kept}{} ({width}x{height}, {spp} spp, {} in \"{}\" built in {:.2} s; {} rays in {:.2} s, {})",
         output,
@@ -327,12 +341,12 @@ const fn up(axis: Up) -> Vector3 {
 }
 
 /// Says things on standard error, unless asked not to.
-struct Talk {
-    quiet: bool,
+pub(super) struct Talk {
+    pub(super) quiet: bool,
 }
 
 impl Talk {
-    fn say(&self, text: &str) {
+    pub(super) fn say(&self, text: &str) {
         if !self.quiet {
             // Nobody is left to tell if this fails.
             let _ = writeln!(io::stderr(), "{text}");

@@ -50,7 +50,15 @@ fn every_structure_of_the_lecture_is_listed_with_a_line() {
 fn help_names_every_command() {
     let folder = tempfile::tempdir().unwrap();
     let help = succeed(folder.path(), &["--help"]);
-    for command in ["render", "info", "scenes", "structures"] {
+    for command in [
+        "render",
+        "compare",
+        "explain",
+        "minray",
+        "info",
+        "scenes",
+        "structures",
+    ] {
         assert!(help.contains(command), "{help}");
     }
 }

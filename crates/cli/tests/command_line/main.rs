@@ -1,6 +1,8 @@
 //! The binary as a person meets it: arguments in, files, words and exit codes out.
 
 mod bad_input;
+mod compared;
+mod explained;
 mod interrupted;
 mod lists;
 mod pictures;

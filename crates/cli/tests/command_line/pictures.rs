@@ -34,7 +34,7 @@ fn the_ending_chooses_the_format() {
 #[test]
 fn the_same_command_gives_the_same_bytes_at_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    for integrator in ["whitted", "ao", "normals", "depth", "cost"] {
+    for integrator in ["whitted", "raster", "ao", "normals", "depth", "cost"] {
         for out in ["a.png", "a.pfm"] {
             let with = |threads| {
                 let more = ["--integrator", integrator, "--threads", threads];

@@ -22,6 +22,7 @@ pub use metadata::Metadata;
 pub(crate) use texture::{mean_of_bytes, texture, texture_of_bytes};
 pub use texture::{read_texture, read_texture_bytes};
 pub use write::{OutputFile, write_image};
+pub(crate) use write::{file_beside, write_error};
 
 pub use info::ImageInfo;
 pub(crate) use info::image_info;

@@ -68,12 +68,12 @@ pub fn write_image(
     OutputFile::create(path)?.finish(image, metadata)
 }
 
-pub(super) fn write_error(source: io::Error) -> FormatError {
+pub(crate) fn write_error(source: io::Error) -> FormatError {
     let action = "be written";
     FormatError::file(Fault::Io { action, source })
 }
 
-fn file_beside(path: &Path) -> Result<NamedTempFile, FormatError> {
+pub(crate) fn file_beside(path: &Path) -> Result<NamedTempFile, FormatError> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

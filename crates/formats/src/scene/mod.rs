@@ -58,7 +58,7 @@ pub fn read_scene(
 }
 
 /// The text of a scene file, which may be a pipe: its length is known once it is read.
-fn text_of(path: &Path) -> Result<String, FormatError> {
+pub(crate) fn text_of(path: &Path) -> Result<String, FormatError> {
     let cannot = |source| {
         let action = "be read";
         FormatError::file(Fault::Io { action, source })

@@ -11,7 +11,7 @@ use crate::Point3;
 /// from its centre (0) to the rim (1). The normal points away from the axis, on a cap out of the
 /// solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cone(Revolved);
+pub struct Cone(pub(super) Revolved);
 
 impl Cone {
     /// From the centre of its base, its apex and the radius of the base.

@@ -12,7 +12,7 @@ use crate::{Aabb, Crossings, Point3, Ray, Vector3};
 /// z, along (x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
-    slabs: Slabs,
+    pub(super) slabs: Slabs,
 }
 
 impl Cuboid {

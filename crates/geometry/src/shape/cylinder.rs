@@ -10,7 +10,7 @@ use crate::Point3;
 /// u runs around the axis. On the side v runs from the first end (0) to the second (1), on a cap from
 /// its centre (0) to the rim (1). The normal points away from the axis, on a cap out of the solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cylinder(Revolved);
+pub struct Cylinder(pub(super) Revolved);
 
 impl Cylinder {
     /// From the centres of its two ends and its radius.

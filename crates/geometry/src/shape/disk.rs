@@ -13,8 +13,8 @@ use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 /// u runs around the centre, v from the centre (0) to the rim (1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disk {
-    frame: Frame,
-    radius: f64,
+    pub(super) frame: Frame,
+    pub(super) radius: f64,
 }
 
 impl Disk {

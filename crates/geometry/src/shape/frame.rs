@@ -1,7 +1,9 @@
 //! The frame in which a shape is simple, and rays in it.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
+use super::Surface;
 use crate::{Crossing, Crossings, Normal3, Point3, Ray, Vector3};
 
 /// A place and three axes of unit length, right-handed and perpendicular to each other.
@@ -117,6 +119,23 @@ pub(super) fn report(found: &mut Crossings, ray: &Ray<f64>, t: f64, uv: impl FnO
         let [u, v] = uv();
         found.push(Crossing { t, u, v });
     }
+}
+
+/// Whether a crossing counts that was found without asking whether the ray is valid.
+#[inline]
+pub(super) fn counts(ray: &Ray<f64>, t: f64) -> bool {
+    ray.t_min <= t && t <= ray.t_max && t.is_finite() && ray.is_valid()
+}
+
+/// What a shape shows of its crossings, as a list.
+pub(super) fn collected(shape: &impl Surface, ray: &Ray<f64>) -> Crossings {
+    let mut found = Crossings::new();
+    // Nothing breaks off.
+    let _ = shape.visit_crossings(ray, &mut |crossing| {
+        found.push(crossing);
+        ControlFlow::Continue(())
+    });
+    found
 }
 
 /// The angle of (x, y) from +x towards +y as a part of a full turn, in `[0, 1]`.

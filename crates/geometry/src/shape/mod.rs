@@ -29,10 +29,13 @@ mod rectangle;
 mod revolved;
 mod slabs;
 mod sphere;
+mod tessellate;
 mod torus;
 mod triangle;
 
-use crate::{Aabb, Crossings, Normal3, Point3, Ray};
+use std::ops::ControlFlow;
+
+use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray};
 
 pub use cone::Cone;
 pub use cuboid::Cuboid;
@@ -45,6 +48,7 @@ pub use plane::Plane;
 pub use polyhedron::{ConvexPolyhedron, HalfSpace};
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
+pub use tessellate::{MAX_TRIANGLES, TessellationError, tessellate, triangle_count};
 pub use torus::Torus;
 pub use triangle::Triangle;
 
@@ -56,6 +60,23 @@ pub trait Surface {
 
     /// The box around it, rounded outward; unbounded where the shape is.
     fn bounds(&self) -> Aabb;
+
+    /// Shows the [`crossings`](Self::crossings) to `visit`, near to far, until it breaks off: what is
+    /// not asked for need not be worked out.
+    ///
+    /// # Errors
+    /// `Break` if `visit` broke off.
+    #[inline]
+    fn visit_crossings(
+        &self,
+        ray: &Ray<f64>,
+        visit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
+    ) -> ControlFlow<()>
+    where
+        Self: Sized,
+    {
+        self.crossings(ray).into_iter().try_for_each(visit)
+    }
 
     /// What the surface is like at a point on it. A point that is off by rounding is answered as
     /// the nearest one on the surface.
@@ -192,6 +213,15 @@ impl Surface for Shape {
     #[inline]
     fn crossings(&self, ray: &Ray<f64>) -> Crossings {
         each!(self, shape => shape.crossings(ray))
+    }
+
+    #[inline]
+    fn visit_crossings(
+        &self,
+        ray: &Ray<f64>,
+        visit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        each!(self, shape => shape.visit_crossings(ray, visit))
     }
 
     fn bounds(&self) -> Aabb {

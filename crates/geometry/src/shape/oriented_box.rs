@@ -9,8 +9,8 @@ use crate::{Aabb, Crossings, Point3, Ray, Vector3};
 /// A box turned any way. u and v are those of a [`Cuboid`](super::Cuboid) along its own axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrientedBox {
-    frame: Frame,
-    slabs: Slabs,
+    pub(super) frame: Frame,
+    pub(super) slabs: Slabs,
 }
 
 impl OrientedBox {

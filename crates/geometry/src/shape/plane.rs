@@ -1,9 +1,11 @@
 //! The plane, endless.
 
+use std::ops::ControlFlow;
+
 use super::error::{ShapeError, direction, finite};
-use super::frame::{Frame, report, unit};
+use super::frame::{Frame, collected, counts, unit};
 use super::{Surface, SurfacePoint, SurfaceSample};
-use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3};
+use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray, Vector3};
 
 /// An endless plane.
 ///
@@ -28,6 +30,18 @@ impl Plane {
         })
     }
 
+    /// The point that it was given by.
+    #[must_use]
+    pub const fn point(&self) -> Point3<f64> {
+        self.frame.origin
+    }
+
+    /// Its unit normal.
+    #[must_use]
+    pub const fn normal(&self) -> Normal3<f64> {
+        self.frame.z.to_normal()
+    }
+
     fn uv(local: Vector3<f64>) -> [f32; 2] {
         [local.x, local.y].map(|x| unit(x - x.floor()))
     }
@@ -35,12 +49,21 @@ impl Plane {
 
 impl Surface for Plane {
     fn crossings(&self, ray: &Ray<f64>) -> Crossings {
-        let mut found = Crossings::new();
-        if ray.is_valid() {
-            let t = distance_along(ray, &self.frame);
-            report(&mut found, ray, t, || Self::uv(self.frame.local(ray.at(t))));
+        collected(self, ray)
+    }
+
+    #[inline]
+    fn visit_crossings(
+        &self,
+        ray: &Ray<f64>,
+        visit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let t = distance_along(ray, &self.frame);
+        if !counts(ray, t) {
+            return ControlFlow::Continue(());
         }
-        found
+        let [u, v] = Self::uv(self.frame.local(ray.at(t)));
+        visit(Crossing { t, u, v })
     }
 
     fn bounds(&self) -> Aabb {

@@ -27,8 +27,8 @@ pub struct HalfSpace {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPolyhedron {
     /// What the faces are relative to.
-    centre: Point3<f64>,
-    faces: Vec<Face>,
+    pub(super) centre: Point3<f64>,
+    pub(super) faces: Vec<Face>,
 }
 
 impl ConvexPolyhedron {

@@ -12,8 +12,8 @@ use crate::{Aabb, Crossings, Point3, Ray, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     /// At the corner, z the normal.
-    frame: Frame,
-    edges: [Vector3<f64>; 2],
+    pub(super) frame: Frame,
+    pub(super) edges: [Vector3<f64>; 2],
     /// What has product 1 with its own edge and 0 with the other one.
     duals: [Vector3<f64>; 2],
     area: f64,

@@ -17,10 +17,10 @@ const TOP: usize = 2;
 /// Neither is negative and one is above 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Revolved {
-    frame: Frame,
-    height: f64,
-    radii: [f64; 2],
-    ends: Ends,
+    pub(super) frame: Frame,
+    pub(super) height: f64,
+    pub(super) radii: [f64; 2],
+    pub(super) ends: Ends,
 }
 
 impl Revolved {

@@ -1,11 +1,12 @@
 //! The sphere: a quadratic, solved without cancellation.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use super::error::{ShapeError, finite, positive};
-use super::frame::{report, turn, unit};
+use super::frame::{collected, counts, turn, unit};
 use super::{Surface, SurfacePoint, SurfaceSample};
-use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3, sampling};
+use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 
 /// A sphere.
 ///
@@ -41,36 +42,46 @@ impl Sphere {
 }
 
 impl Surface for Sphere {
+    fn crossings(&self, ray: &Ray<f64>) -> Crossings {
+        collected(self, ray)
+    }
+
     /// The lecture's A t² + B t + C = 0, with two changes against cancellation (Haines et al.,
     /// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, ch. 7): the
     /// discriminant comes from the distance of the centre from the line, and of the two roots the
     /// one that would subtract equals comes from the other one by Vieta's formula.
-    fn crossings(&self, ray: &Ray<f64>) -> Crossings {
-        let mut found = Crossings::new();
+    #[inline]
+    fn visit_crossings(
+        &self,
+        ray: &Ray<f64>,
+        visit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let radius = f64::from(self.radius);
-        if !ray.is_valid() || !(radius > 0.0) {
-            return found;
-        }
         let to_centre = self.centre.wide() - ray.origin;
         let a = ray.direction.length_squared();
         let half_b = to_centre.dot(ray.direction);
         let from_line = to_centre - ray.direction * (half_b / a);
         let discriminant = a * (radius * radius - from_line.length_squared());
-        if !(discriminant >= 0.0) {
-            return found;
+        // Most lines pass by, so whether ray and sphere are fit to be asked comes after. NaN does not
+        // get through either.
+        if !(discriminant >= 0.0 && radius > 0.0) {
+            return ControlFlow::Continue(());
         }
         let c = to_centre.length_squared() - radius * radius;
         let q = half_b + discriminant.sqrt().copysign(half_b);
         // q is 0 only where the centre is nearest at t = 0 and the line touches there.
         let (t0, t1) = if q == 0.0 { (0.0, 0.0) } else { (c / q, q / a) };
         let (near, far) = if t0 <= t1 { (t0, t1) } else { (t1, t0) };
-        let twice = (far > near).then_some(far);
-        for t in [near].into_iter().chain(twice) {
-            report(&mut found, ray, t, || {
-                Self::uv((ray.at(t) - self.centre.wide()) / radius)
-            });
+        let uv = |t| Self::uv((ray.at(t) - self.centre.wide()) / radius);
+        if counts(ray, near) {
+            let [u, v] = uv(near);
+            visit(Crossing { t: near, u, v })?;
         }
-        found
+        if far > near && counts(ray, far) {
+            let [u, v] = uv(far);
+            visit(Crossing { t: far, u, v })?;
+        }
+        ControlFlow::Continue(())
     }
 
     fn bounds(&self) -> Aabb {

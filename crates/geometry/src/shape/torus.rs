@@ -15,11 +15,11 @@ use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3};
 /// the axis points) to the inner side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus {
-    frame: Frame,
+    pub(super) frame: Frame,
     /// From the centre to the middle of the tube.
-    major: f64,
+    pub(super) major: f64,
     /// Of the tube.
-    minor: f64,
+    pub(super) minor: f64,
 }
 
 impl Torus {

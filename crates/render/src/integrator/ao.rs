@@ -7,9 +7,10 @@ use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayPro
 use ombra_scene::{Interaction, Rgb, World};
 
 use super::View;
+use crate::explain::{self, End, Event, Observer, RayKind};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
-use crate::sampler::Dimension;
+use crate::sampler::{Dimension, Sample};
 
 /// How far away something still occludes, as a share of the diagonal of the scene's finite bounds.
 const REACH: f32 = 0.1;
@@ -20,14 +21,21 @@ const REACH: f32 = 0.1;
 ///
 /// Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", EGRW 1998, with a step for their
 /// function of the distance; one ray a sample.
-pub(crate) struct AmbientOcclusion<'a> {
+pub(crate) struct AmbientOcclusion<'a, O = ()> {
     world: &'a World,
     exposure: Exposure<'a>,
     distance: f32,
+    observer: O,
 }
 
 impl<'a> AmbientOcclusion<'a> {
     pub(crate) fn new(world: &'a World, exposure: Exposure<'a>) -> Self {
+        Self::observed(world, exposure, ())
+    }
+}
+
+impl<'a, O> AmbientOcclusion<'a, O> {
+    pub(crate) fn observed(world: &'a World, exposure: Exposure<'a>, observer: O) -> Self {
         let bounds = world.finite_bounds();
         let distance = if bounds.is_empty() {
             f32::INFINITY
@@ -38,6 +46,7 @@ impl<'a> AmbientOcclusion<'a> {
             world,
             exposure,
             distance,
+            observer,
         }
     }
 }
@@ -58,7 +67,7 @@ impl RayType for Seen {
     const NAME: &'static str = View::NAME;
 }
 
-impl Pipeline for AmbientOcclusion<'_> {
+impl<O: Observer> Pipeline for AmbientOcclusion<'_, O> {
     type World = World;
 
     fn world(&self) -> &World {
@@ -66,7 +75,7 @@ impl Pipeline for AmbientOcclusion<'_> {
     }
 }
 
-impl RayProgram<Seen> for AmbientOcclusion<'_> {
+impl<O: Observer> RayProgram<Seen> for AmbientOcclusion<'_, O> {
     fn closest_hit(
         &self,
         _cx: &mut Context<'_, Self>,
@@ -74,40 +83,70 @@ impl RayProgram<Seen> for AmbientOcclusion<'_> {
         hit: &Hit,
         place: &mut Option<Interaction>,
     ) -> Result<(), Exception> {
-        *place = Some(self.world.interaction(ray, hit));
+        let met = self.world.interaction(ray, hit);
+        self.observer.tell(|| Event::met(hit, &met));
+        *place = Some(met);
         Ok(())
     }
 }
 
-impl RayProgram<Occlusion> for AmbientOcclusion<'_> {
+impl<O: Observer> RayProgram<Occlusion> for AmbientOcclusion<'_, O> {
     #[inline]
-    fn any_hit(&self, _ray: &Ray, _hit: &Hit, occluded: &mut bool) -> AnyHit {
+    fn any_hit(&self, _ray: &Ray, hit: &Hit, occluded: &mut bool) -> AnyHit {
+        self.observer.tell(|| Event::crossed(hit, None));
         *occluded = true;
         AnyHit::Terminate
     }
 }
 
-impl RayGeneration for AmbientOcclusion<'_> {
+impl<O: Observer> RayGeneration for AmbientOcclusion<'_, O> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
         self.exposure
             .expose(cx.launch_index(), pixel, |ray, sample| {
+                self.observer.tell(|| Event::camera(ray));
                 let mut place = None;
-                cx.trace::<Seen>(ray, &mut place)?;
-                let Some(place) = place else {
-                    return Ok(Rgb::WHITE);
+                explain::trace::<Seen, _, _>(&self.observer, cx, ray, &mut place)?;
+                let openness = match place {
+                    Some(place) => self.openness(cx, &place, sample)?,
+                    None => Rgb::WHITE,
                 };
-                // The true normal: over a shading normal some directions would start into the surface.
-                let normal = place.normal.facing(-place.wo);
-                let direction = cosine_weighted(normal, sample.pair(Dimension::Hemisphere));
-                let ray = place.spawn_within(direction, self.distance);
-                let mut occluded = false;
-                if ray.is_valid() {
-                    cx.trace::<Occlusion>(&ray, &mut occluded)?;
-                }
-                Ok(if occluded { Rgb::BLACK } else { Rgb::WHITE })
+                self.observer.tell(|| Event::Done(openness));
+                Ok(openness)
             })
+    }
+}
+
+impl<O: Observer> AmbientOcclusion<'_, O> {
+    /// Whether something is near in one direction over a place.
+    fn openness(
+        &self,
+        cx: &mut Context<'_, Self>,
+        place: &Interaction,
+        sample: &Sample,
+    ) -> Result<Rgb, Exception> {
+        // The true normal: over a shading normal some directions would start into the surface.
+        let normal = place.normal.facing(-place.wo);
+        let direction = cosine_weighted(normal, sample.pair(Dimension::Hemisphere));
+        let ray = place.spawn_within(direction, self.distance);
+        self.observer.tell(|| Event::Wanted {
+            kind: RayKind::Occlusion,
+            ray,
+            weight: Rgb::WHITE,
+        });
+        let mut occluded = false;
+        if ray.is_valid() {
+            explain::trace::<Occlusion, _, _>(&self.observer, cx, &ray, &mut occluded)?;
+        }
+        let (end, radiance) = if occluded {
+            (End::Blocked, Rgb::BLACK)
+        } else {
+            (End::Free, Rgb::WHITE)
+        };
+        self.observer.tell(|| Event::Ends(end));
+        self.observer.tell(|| Event::Done(radiance));
+        Ok(radiance)
     }
 }
 

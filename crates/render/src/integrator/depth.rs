@@ -5,21 +5,33 @@ use ombra_pipeline::{Context, Exception, Pipeline, RayGeneration, RayProgram};
 use ombra_scene::camera::Projection;
 use ombra_scene::{Camera, Rgb, World};
 
-use super::View;
+use super::{View, view};
 use crate::display::Quantity;
+use crate::explain::{Event, Observer};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 
 /// Measures how far it is along each camera ray, in units of the scene: from the place of the
 /// camera, or from its plane or lens. All cameras have it, panoramas included.
-pub(crate) struct Depth<'a> {
+pub(crate) struct Depth<'a, O = ()> {
     world: &'a World,
     exposure: Exposure<'a>,
+    observer: O,
 }
 
 impl<'a> Depth<'a> {
     pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>) -> Self {
-        Self { world, exposure }
+        Self::observed(world, exposure, ())
+    }
+}
+
+impl<'a, O> Depth<'a, O> {
+    pub(crate) const fn observed(world: &'a World, exposure: Exposure<'a>, observer: O) -> Self {
+        Self {
+            world,
+            exposure,
+            observer,
+        }
     }
 }
 
@@ -54,7 +66,7 @@ pub(crate) fn range(bounds: &Aabb, camera: &Camera) -> Quantity {
     }
 }
 
-impl Pipeline for Depth<'_> {
+impl<O: Observer> Pipeline for Depth<'_, O> {
     type World = World;
 
     fn world(&self) -> &World {
@@ -62,27 +74,29 @@ impl Pipeline for Depth<'_> {
     }
 }
 
-impl RayProgram<View> for Depth<'_> {
+impl<O: Observer> RayProgram<View> for Depth<'_, O> {
     fn closest_hit(
         &self,
         _cx: &mut Context<'_, Self>,
-        _ray: &Ray,
+        ray: &Ray,
         hit: &Hit,
         measured: &mut Rgb,
     ) -> Result<(), Exception> {
+        self.observer
+            .tell(|| Event::met(hit, &self.world.interaction(ray, hit)));
         // Camera rays have unit length.
         *measured = Rgb::new(hit.t, 1.0, 0.0);
         Ok(())
     }
 }
 
-impl RayGeneration for Depth<'_> {
+impl<O: Observer> RayGeneration for Depth<'_, O> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
         self.exposure.expose(cx.launch_index(), pixel, |ray, _| {
             let mut measured = Rgb::BLACK;
-            cx.trace::<View>(ray, &mut measured)?;
+            view(&self.observer, cx, ray, &mut measured)?;
             Ok(measured)
         })
     }

@@ -14,6 +14,8 @@ pub enum IntegratorKind {
     /// Light, by Whitted's ray tracing: Phong's model with shadows, reflection and refraction.
     #[default]
     Whitted,
+    /// Light without shadows and reflections, by rasterization: Phong's model alone.
+    Raster,
     /// Shading normals as colours.
     Normals,
     /// Distances from the camera.
@@ -28,6 +30,7 @@ impl IntegratorKind {
     /// All of them, the default first.
     pub const ALL: &[Self] = &[
         Self::Whitted,
+        Self::Raster,
         Self::Normals,
         Self::Depth,
         Self::Cost,
@@ -39,6 +42,7 @@ impl IntegratorKind {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Whitted => "whitted",
+            Self::Raster => "raster",
             Self::Normals => "normals",
             Self::Depth => "depth",
             Self::Cost => "cost",
@@ -51,6 +55,7 @@ impl IntegratorKind {
     pub const fn line(self) -> &'static str {
         match self {
             Self::Whitted => "light: Phong shading, shadows, reflection and refraction",
+            Self::Raster => "light by rasterization: Phong shading alone, no rays",
             Self::Normals => "shading normals as colours",
             Self::Depth => "distance from the camera, white is near",
             Self::Cost => "traversal steps of camera rays, as a heat map",
@@ -61,7 +66,7 @@ impl IntegratorKind {
     /// What its films hold.
     pub(crate) fn quantity(self, world: &World, camera: &Camera, response: Response) -> Quantity {
         match self {
-            Self::Whitted => Quantity::Light(response),
+            Self::Whitted | Self::Raster => Quantity::Light(response),
             // How open a place is does not depend on the film.
             Self::AmbientOcclusion => Quantity::Light(Response::default()),
             Self::Normals => Quantity::Normal,

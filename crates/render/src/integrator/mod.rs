@@ -7,8 +7,11 @@ mod kind;
 mod normals;
 mod whitted;
 
-use ombra_pipeline::RayType;
+use ombra_geometry::Ray;
+use ombra_pipeline::{Context, Exception, RayProgram, RayType};
 use ombra_scene::Rgb;
+
+use crate::explain::{self, Event, Observer, Part};
 
 pub(crate) use ao::AmbientOcclusion;
 pub(crate) use cost::Cost;
@@ -23,4 +26,19 @@ pub(crate) enum View {}
 impl RayType for View {
     type Payload = Rgb;
     const NAME: &'static str = "view";
+}
+
+/// Traces a camera ray that measures.
+#[inline]
+fn view<P: RayProgram<View>, O: Observer>(
+    observer: &O,
+    cx: &mut Context<'_, P>,
+    ray: &Ray,
+    measured: &mut Rgb,
+) -> Result<(), Exception> {
+    observer.tell(|| Event::camera(ray));
+    explain::trace::<View, P, O>(observer, cx, ray, measured)?;
+    observer.tell(|| Event::Adds(Part::Measured(*measured)));
+    observer.tell(|| Event::Done(*measured));
+    Ok(())
 }

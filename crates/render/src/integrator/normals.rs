@@ -4,7 +4,8 @@ use ombra_geometry::{Hit, Ray};
 use ombra_pipeline::{Context, Exception, Pipeline, RayGeneration, RayProgram};
 use ombra_scene::{Rgb, World};
 
-use super::View;
+use super::{View, view};
+use crate::explain::{Event, Observer};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 
@@ -13,18 +14,29 @@ use crate::film::Pixel;
 ///
 /// Normals point out of the surface, whichever side is seen: a surface that is inside out shows by
 /// its colour.
-pub(crate) struct Normals<'a> {
+pub(crate) struct Normals<'a, O = ()> {
     world: &'a World,
     exposure: Exposure<'a>,
+    observer: O,
 }
 
 impl<'a> Normals<'a> {
     pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>) -> Self {
-        Self { world, exposure }
+        Self::observed(world, exposure, ())
     }
 }
 
-impl Pipeline for Normals<'_> {
+impl<'a, O> Normals<'a, O> {
+    pub(crate) const fn observed(world: &'a World, exposure: Exposure<'a>, observer: O) -> Self {
+        Self {
+            world,
+            exposure,
+            observer,
+        }
+    }
+}
+
+impl<O: Observer> Pipeline for Normals<'_, O> {
     type World = World;
 
     fn world(&self) -> &World {
@@ -32,7 +44,7 @@ impl Pipeline for Normals<'_> {
     }
 }
 
-impl RayProgram<View> for Normals<'_> {
+impl<O: Observer> RayProgram<View> for Normals<'_, O> {
     fn closest_hit(
         &self,
         _cx: &mut Context<'_, Self>,
@@ -40,19 +52,24 @@ impl RayProgram<View> for Normals<'_> {
         hit: &Hit,
         colour: &mut Rgb,
     ) -> Result<(), Exception> {
-        let normal = self.world.interaction(ray, hit).shading_normal;
-        *colour = normal.to_array().map(|x| 0.5 * x + 0.5).into();
+        let place = self.world.interaction(ray, hit);
+        self.observer.tell(|| Event::met(hit, &place));
+        *colour = place
+            .shading_normal
+            .to_array()
+            .map(|x| 0.5 * x + 0.5)
+            .into();
         Ok(())
     }
 }
 
-impl RayGeneration for Normals<'_> {
+impl<O: Observer> RayGeneration for Normals<'_, O> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
         self.exposure.expose(cx.launch_index(), pixel, |ray, _| {
             let mut colour = Rgb::BLACK;
-            cx.trace::<View>(ray, &mut colour)?;
+            view(&self.observer, cx, ray, &mut colour)?;
             Ok(colour)
         })
     }

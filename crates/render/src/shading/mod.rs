@@ -3,5 +3,5 @@
 mod phong;
 mod side;
 
-pub(crate) use phong::scattered;
+pub(crate) use phong::{scattered, terms};
 pub(crate) use side::Side;

@@ -21,14 +21,30 @@ pub(crate) fn scattered(
     wo: Vector3,
     light: &LightSample,
 ) -> Rgb {
+    let Some([diffuse, specular]) = terms(material, diffuse, side, wo, light) else {
+        return Rgb::BLACK;
+    };
+    (diffuse + specular) * light.incident
+}
+
+/// The diffuse and the specular part of [`scattered`], of light of strength 1; none where the light is
+/// behind the surface.
+#[inline]
+pub(crate) fn terms(
+    material: &Material,
+    diffuse: Rgb,
+    side: &Side,
+    wo: Vector3,
+    light: &LightSample,
+) -> Option<[Rgb; 2]> {
     let cosine = side.shading_normal.dot(light.wi);
     if !(cosine > 0.0 && side.is_in_front(light.wi)) {
-        return Rgb::BLACK;
+        return None;
     }
-    let mut scattered = diffuse * cosine;
+    let mut specular = Rgb::BLACK;
     if !material.specular.is_black() {
         let highlight = optics::reflected(light.wi, side.shading_normal).dot(wo);
-        scattered += material.specular * highlight.max(0.0).powf(material.shininess);
+        specular = material.specular * highlight.max(0.0).powf(material.shininess);
     }
-    scattered * light.incident
+    Some([diffuse * cosine, specular])
 }

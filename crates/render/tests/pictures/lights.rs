@@ -112,13 +112,26 @@ fn a_highlight_is_phongs() {
 }
 
 #[test]
-fn a_light_source_is_seen_as_such_and_is_not_shaded() {
+fn what_glows_is_shaded_as_well() {
     let emission = Rgb::new(3.0, 2.0, 1.0);
-    let lamp = Material {
+    let glowing = Material {
         diffuse: Rgb::WHITE.into(),
         reflection: Rgb::WHITE,
-        ..Material::luminous("lamp", emission)
+        ..Material::luminous("glowing", emission)
     };
+    let mut lit = scene(
+        vec![(wall(0.0, 5.0), glowing)],
+        vec![directional(0.0, 0.0, -1.0)],
+    );
+    lit.ambient = Rgb::WHITE;
+    let of_others = Rgb::grey(2.0);
+    assert_eq!(middle(lit, &flat_camera(1.0), 0), emission + of_others);
+}
+
+#[test]
+fn a_lamp_shows_its_own_light_alone() {
+    let emission = Rgb::new(3.0, 2.0, 1.0);
+    let lamp = Material::luminous("lamp", emission);
     let mut lit = scene(
         vec![(wall(0.0, 5.0), lamp)],
         vec![directional(0.0, 0.0, -1.0)],

@@ -7,4 +7,5 @@ mod mirrors;
 mod no_acne;
 mod same_bytes;
 mod stage;
+mod trees;
 mod watching;

@@ -6,10 +6,11 @@ use ombra_scene::{Interaction, Material, Rgb};
 
 use super::shadow::{Shade, Shadow};
 use super::{Traced, Whitted};
+use crate::explain::{self, End, Event, LightWay, Observer, Part, RayKind};
 use crate::sampler::Dimension;
 use crate::shading::{self, Side};
 
-impl Whitted<'_> {
+impl<O: Observer> Whitted<'_, O> {
     /// The ambient part, and what is scattered of each light that is not in the shade.
     pub(super) fn local(
         &self,
@@ -22,18 +23,32 @@ impl Whitted<'_> {
         let scene = self.world.scene();
         let diffuse = material.diffuse_at(place.object_point, place.uv) * place.tint;
         let mut radiance = scene.ambient * diffuse;
+        self.observer.tell(|| Event::Adds(Part::Ambient(radiance)));
         if diffuse.is_black() && material.specular.is_black() {
             return Ok(radiance);
         }
         for (index, light) in scene.lights.iter().enumerate() {
             let xi = || traced.pair(Dimension::Light, index);
             let Some(light) = light.sample_li(place.point, xi) else {
+                self.observer.tell(|| unlit(index, LightWay::OutOfReach));
                 continue;
             };
             let scattered = shading::scattered(material, diffuse, side, place.wo, &light);
             if !scattered.is_black() {
-                radiance += scattered * self.unshadowed(cx, place, &light)?;
+                radiance += scattered * self.unshadowed(cx, place, index, &light, scattered)?;
             }
+            self.observer.tell(|| {
+                let Some(terms) = shading::terms(material, diffuse, side, place.wo, &light) else {
+                    return unlit(index, LightWay::Behind);
+                };
+                let [diffuse, specular] = terms.map(|term| term * light.incident);
+                Event::Light {
+                    light: index,
+                    diffuse,
+                    specular,
+                    way: scattered.is_black().then_some(LightWay::NothingScattered),
+                }
+            });
         }
         Ok(radiance)
     }
@@ -43,7 +58,9 @@ impl Whitted<'_> {
         &self,
         cx: &mut Context<'_, Self>,
         place: &Interaction,
+        index: usize,
         light: &LightSample,
+        weight: Rgb,
     ) -> Result<Rgb, Exception> {
         let mut shade = Shade::of(light);
         // The light of an object may be met anywhere on its surface.
@@ -53,9 +70,29 @@ impl Whitted<'_> {
         };
         let ray = place.spawn_within(light.wi, distance);
         // A place at the end of the number range has no ray that leaves it.
+        let kind = RayKind::Shadow { light: index };
+        self.observer.tell(|| Event::Wanted { kind, ray, weight });
         if ray.is_valid() {
-            cx.trace::<Shadow>(&ray, &mut shade)?;
+            explain::trace::<Shadow, _, _>(&self.observer, cx, &ray, &mut shade)?;
         }
-        Ok(shade.transmitted())
+        let end = if shade.is_blocked() {
+            End::Blocked
+        } else {
+            End::Free
+        };
+        let arriving = shade.transmitted();
+        self.observer.tell(|| Event::Ends(end));
+        self.observer.tell(|| Event::Done(arriving));
+        Ok(arriving)
+    }
+}
+
+/// A light that no shadow ray asked for.
+const fn unlit(light: usize, way: LightWay) -> Event {
+    Event::Light {
+        light,
+        diffuse: Rgb::BLACK,
+        specular: Rgb::BLACK,
+        way: Some(way),
     }
 }

@@ -9,6 +9,7 @@ use ombra_geometry::{Hit, Ray};
 use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
 use ombra_scene::{Interaction, Material, Rgb, World};
 
+use crate::explain::{self, End, Event, Observer, Part, RayKind, Split};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 use crate::optics;
@@ -36,11 +37,14 @@ use shadow::{Shade, Shadow};
 /// what it would have seen and the background, and there may be several: in four nested spheres of
 /// glass they add up to less than 1/256 of the largest such difference at 8 bounces and to less than
 /// 1/128 at 12 (see the tests).
-pub(crate) struct Whitted<'a> {
+///
+/// What it does it tells an [`Observer`], for [`explain`](crate::explain).
+pub(crate) struct Whitted<'a, O = ()> {
     world: &'a World,
     exposure: Exposure<'a>,
     max_depth: u32,
     least_importance: f32,
+    observer: O,
 }
 
 /// What a ray's light must count for in its pixel for the ray to be worth tracing.
@@ -109,14 +113,28 @@ impl Traced {
 
 impl<'a> Whitted<'a> {
     pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>, max_depth: u32) -> Self {
+        Self::observed(world, exposure, max_depth, ())
+    }
+}
+
+impl<'a, O> Whitted<'a, O> {
+    pub(crate) const fn observed(
+        world: &'a World,
+        exposure: Exposure<'a>,
+        max_depth: u32,
+        observer: O,
+    ) -> Self {
         Self {
             world,
             exposure,
             max_depth,
             least_importance: LEAST_IMPORTANCE,
+            observer,
         }
     }
+}
 
+impl<O: Observer> Whitted<'_, O> {
     /// The lecture's function.
     fn radiance(
         &self,
@@ -124,10 +142,21 @@ impl<'a> Whitted<'a> {
         ray: &Ray,
         mut traced: Traced,
     ) -> Result<Rgb, Exception> {
-        if traced.step > self.max_depth || traced.importance < self.least_importance {
-            return Ok(self.world.scene().beyond(ray.direction));
+        let beyond = traced.step > self.max_depth;
+        if beyond || traced.importance < self.least_importance {
+            let radiance = self.world.scene().beyond(ray.direction);
+            self.observer.tell(|| {
+                Event::Ends(if beyond {
+                    End::MaxDepth
+                } else {
+                    End::Unimportant
+                })
+            });
+            self.observer.tell(|| Event::Done(radiance));
+            return Ok(radiance);
         }
-        cx.trace::<Radiance>(ray, &mut traced)?;
+        explain::trace::<Radiance, _, _>(&self.observer, cx, ray, &mut traced)?;
+        self.observer.tell(|| Event::Done(traced.radiance));
         Ok(traced.radiance)
     }
 
@@ -151,20 +180,31 @@ impl<'a> Whitted<'a> {
                 Some(_) if material.fresnel => optics::fresnel(side.cosine(place.wo), eta),
                 Some(_) => 0.0,
             };
+            self.observer.tell(|| {
+                Event::Splits(Split {
+                    eta,
+                    mirrored: share,
+                    total: through.is_none(),
+                })
+            });
             mirrored += material.transmission * share;
             if let Some(direction) = through {
                 let weight = material.transmission * (1.0 - share);
-                radiance += self.weighted(cx, place.spawn(direction), weight, traced.through())?;
+                let ray = place.spawn(direction);
+                let kind = RayKind::Transmitted;
+                radiance += self.weighted(cx, kind, ray, weight, traced.through())?;
             }
         }
         let direction = side.reflected(place.wo);
-        radiance += self.weighted(cx, place.spawn(direction), mirrored, traced.mirrored())?;
+        let (ray, kind) = (place.spawn(direction), RayKind::Reflected);
+        radiance += self.weighted(cx, kind, ray, mirrored, traced.mirrored())?;
         Ok(radiance)
     }
 
     fn weighted(
         &self,
         cx: &mut Context<'_, Self>,
+        kind: RayKind,
         ray: Ray,
         weight: Rgb,
         child: Traced,
@@ -174,19 +214,16 @@ impl<'a> Whitted<'a> {
             return Ok(Rgb::BLACK);
         }
         let importance = child.importance * weight.max_component();
-        Ok(weight
-            * self.radiance(
-                cx,
-                &ray,
-                Traced {
-                    importance,
-                    ..child
-                },
-            )?)
+        let child = Traced {
+            importance,
+            ..child
+        };
+        self.observer.tell(|| Event::Wanted { kind, ray, weight });
+        Ok(weight * self.radiance(cx, &ray, child)?)
     }
 }
 
-impl Pipeline for Whitted<'_> {
+impl<O: Observer> Pipeline for Whitted<'_, O> {
     type World = World;
 
     fn world(&self) -> &World {
@@ -199,7 +236,7 @@ impl Pipeline for Whitted<'_> {
     }
 }
 
-impl RayProgram<Radiance> for Whitted<'_> {
+impl<O: Observer> RayProgram<Radiance> for Whitted<'_, O> {
     fn closest_hit(
         &self,
         cx: &mut Context<'_, Self>,
@@ -211,9 +248,14 @@ impl RayProgram<Radiance> for Whitted<'_> {
         let place = self.world.interaction(ray, hit);
         let emission = material.emission_at(place.uv);
         if material.is_light_source() {
+            self.observer.tell(|| Event::met(hit, &place));
+            self.observer.tell(|| Event::Adds(Part::Emission(emission)));
+            self.observer.tell(|| Event::Ends(End::LightSource));
             traced.radiance = emission;
             return Ok(());
         }
+        self.observer.tell(|| Event::met(hit, &place));
+        self.observer.tell(|| Event::Adds(Part::Emission(emission)));
         let side = Side::of(&place);
         traced.radiance = emission
             + self.local(cx, &place, &side, material, traced)?
@@ -237,7 +279,7 @@ impl RayProgram<Radiance> for Whitted<'_> {
     }
 }
 
-impl RayProgram<Shadow> for Whitted<'_> {
+impl<O: Observer> RayProgram<Shadow> for Whitted<'_, O> {
     /// What is opaque ends the ray, what is transparent dims the light, and a light source lets it
     /// pass: else a lamp would put itself into the shade.
     #[inline]
@@ -249,9 +291,12 @@ impl RayProgram<Shadow> for Whitted<'_> {
         if material.is_light_source() {
             AnyHit::Ignore
         } else if material.transmission.is_black() {
+            self.observer.tell(|| Event::crossed(hit, None));
             shade.block();
             AnyHit::Terminate
         } else {
+            self.observer
+                .tell(|| Event::crossed(hit, Some(material.transmission)));
             shade.dim(material.transmission);
             AnyHit::Ignore
         }
@@ -265,6 +310,9 @@ impl RayProgram<Shadow> for Whitted<'_> {
         hit: &Hit,
         shade: &mut Shade,
     ) -> Result<(), Exception> {
+        if shade.looks_for_object() {
+            self.observer.tell(|| Event::crossed(hit, None));
+        }
         shade.met(Some(hit.instance));
         Ok(())
     }
@@ -281,12 +329,13 @@ impl RayProgram<Shadow> for Whitted<'_> {
     }
 }
 
-impl RayGeneration for Whitted<'_> {
+impl<O: Observer> RayGeneration for Whitted<'_, O> {
     type Output = Pixel;
 
     fn generate(&self, cx: &mut Context<'_, Self>, pixel: &mut Pixel) -> Result<(), Exception> {
         self.exposure
             .expose(cx.launch_index(), pixel, |ray, sample| {
+                self.observer.tell(|| Event::camera(ray));
                 self.radiance(cx, ray, Traced::camera(*sample))
             })
     }

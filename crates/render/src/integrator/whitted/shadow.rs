@@ -54,6 +54,12 @@ impl Shade {
         self.blocked = true;
     }
 
+    /// Whether nothing gets through.
+    #[inline]
+    pub(super) const fn is_blocked(&self) -> bool {
+        self.blocked
+    }
+
     /// Only a part gets through.
     #[inline]
     pub(super) fn dim(&mut self, transmission: Rgb) {

@@ -1,0 +1,45 @@
+//! Files that are either whole or not there.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use crate::error::FormatError;
+use crate::image::{file_beside, write_error};
+
+/// Writes a file beside its place under another name, and renames it when it is whole.
+///
+/// # Errors
+/// When the folder does not exist or cannot be written into, or the path is a folder; what was there
+/// before is still there then.
+pub fn write_whole(path: impl AsRef<Path>, content: &[u8]) -> Result<(), FormatError> {
+    let path = path.as_ref();
+    let write = || {
+        let mut beside = file_beside(path)?;
+        beside.write_all(content).map_err(write_error)?;
+        beside
+            .persist(path)
+            .map(drop)
+            .map_err(|e| write_error(e.error))
+    };
+    write().map_err(|e| e.in_file(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_or_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_whole(&path, b"one").unwrap();
+        write_whole(&path, b"two").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+
+        let missing = folder.path().join("no/such.txt");
+        let error = write_whole(missing, b"").unwrap_err().to_string();
+        assert!(error.contains("does not exist"), "{error}");
+        assert!(write_whole(folder.path(), b"").is_err());
+    }
+}
