@@ -7,6 +7,7 @@
 use std::fmt::Display;
 
 use ombra_accel::{Geometry, Primitives as _};
+use ombra_formats::minray::{parse_contest, read_contest_picture_bytes};
 use ombra_formats::scene::parse_scene;
 use ombra_formats::{
     Assets, Finding, FormatError, ImageBuffer, Limits, Model, parse_gltf, read_image_bytes,
@@ -21,6 +22,8 @@ pub type Target = (&'static str, fn(&[u8]));
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
+    ("contest", contest),
+    ("contest_picture", contest_picture),
     ("exr", exr),
     ("glb", glb),
     ("gltf", gltf),
@@ -162,6 +165,33 @@ pub fn scene(data: &[u8]) {
     assert_eq!(file.hash.len(), 64);
     check_findings(&file.findings);
     check_scene(&file.scene);
+}
+
+/// Reads a scene of the minimal ray tracing contest.
+pub fn contest(data: &[u8]) {
+    match parse_contest(data) {
+        Ok(contest) => {
+            let scene = contest.scene();
+            check_scene(&scene);
+            assert_eq!(scene.objects.len(), contest.spheres.len());
+        }
+        Err(error) => check_error(&error),
+    }
+}
+
+/// Reads a picture of the contest, writes it and reads it again.
+pub fn contest_picture(data: &[u8]) {
+    let read = |data: &[u8]| read_contest_picture_bytes("a.ap", data, &limits());
+    match read(data) {
+        Ok(picture) => {
+            let pixels = u64::from(picture.width()) * u64::from(picture.height());
+            assert!((1..=limits().image_pixels).contains(&pixels), "{pixels}");
+            assert_eq!(picture.pixels().len() as u64, pixels);
+            let again = read(picture.to_string().as_bytes());
+            assert_eq!(again.ok(), Some(picture));
+        }
+        Err(error) => check_error(&error),
+    }
 }
 
 /// Reads PNG, as a picture and as a texture.
