@@ -221,7 +221,7 @@ pub enum Fault {
     #[error("{}", shown(.0))]
     Description(String),
     /// A document (glTF) that does not hold together.
-    #[error("{}: {}", one_line(.place), one_line(.message))]
+    #[error("{}: {}", shown(.place), shown(.message))]
     InDocument {
         /// Where in it, such as `meshes[0].primitives[0].indices`.
         place: String,
