@@ -47,8 +47,7 @@ fn check(pages: &BTreeMap<PathBuf, Page>, exists: impl Fn(&Path) -> bool) -> Vec
     let mut findings = Vec::new();
     for (file, page) in pages {
         for link in &page.links {
-            let elsewhere = link.text.contains("://") || link.text.starts_with("mailto:");
-            if elsewhere {
+            if is_elsewhere(&link.text) {
                 continue;
             }
             let (path, anchor) = match link.text.split_once('#') {
@@ -93,8 +92,13 @@ fn unlisted(pages: &BTreeMap<PathBuf, Page>) -> Vec<String> {
         .collect()
 }
 
+/// Whether a link leads to another site.
+pub(crate) fn is_elsewhere(target: &str) -> bool {
+    target.contains("://") || target.starts_with("mailto:")
+}
+
 /// A path without `.` and `..`; `None` if it leaves the root.
-fn normalised(path: &Path) -> Option<PathBuf> {
+pub(crate) fn normalised(path: &Path) -> Option<PathBuf> {
     let mut result = PathBuf::new();
     for component in path.components() {
         match component {

@@ -7,12 +7,14 @@ mod cargo;
 mod commands;
 mod deny;
 mod examples;
+mod formula;
 mod layers;
 mod licences;
 mod links;
 mod markdown;
 mod members;
 mod pictures;
+mod site;
 mod test;
 mod words;
 
@@ -36,7 +38,8 @@ enum Task {
     Layers,
     /// Check dependencies with cargo-deny: bans, licences, sources, advisories
     Deny,
-    /// Check that links in Markdown files lead somewhere and that commands in them exist
+    /// Build the website in target/docs and check the pages: links lead somewhere, formulas can be
+    /// set, commands exist, and those that make pictures work
     Docs,
     /// Check what all crates share, the licence files, and the words that files may not hold
     House,
@@ -44,12 +47,20 @@ enum Task {
     Pictures(pictures::Options),
 }
 
+fn docs() -> anyhow::Result<()> {
+    links::run()?;
+    site::run()?;
+    let executables = cargo::executables()?;
+    commands::run(&executables)?;
+    pictures::check(&executables)
+}
+
 fn main() -> ExitCode {
     let done = match Cli::parse().task {
         Task::Test => return test::run(),
         Task::Layers => layers::run(),
         Task::Deny => deny::run(),
-        Task::Docs => links::run().and_then(|()| commands::run(&cargo::executables()?)),
+        Task::Docs => docs(),
         Task::House => members::run()
             .and_then(|()| licences::run())
             .and_then(|()| words::run()),

@@ -1,8 +1,12 @@
-//! What the checks need to know of a Markdown page: its links, its headings, its commands.
+//! What the checks and the site need to know of a Markdown page: its links, its headings, its commands.
+
+use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
 /// A page, taken apart.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Page {
+    /// Its first heading.
+    pub(crate) title: String,
     /// Where its links lead.
     pub(crate) links: Vec<Item>,
     /// The anchors of its headings, as the usual hosts make them.
@@ -21,61 +25,100 @@ pub(crate) struct Item {
 /// The languages of code blocks that hold commands. A block that names none may hold some.
 const SHELLS: [&str; 5] = ["", "sh", "bash", "shell", "console"];
 
+/// The Markdown that the usual hosts know: tables, formulas.
+pub(crate) fn parser(text: &str) -> Parser<'_> {
+    let options = Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_STRIKETHROUGH;
+    Parser::new_ext(text, options)
+}
+
 impl Page {
     /// Takes a page apart.
     pub(crate) fn parse(text: &str) -> Self {
         let mut page = Self::default();
-        let mut block: Option<&str> = None;
-        let mut command = String::new();
-        for (index, line) in text.lines().enumerate() {
-            let number = index + 1;
-            let trimmed = line.trim();
-            if let Some(fence) = trimmed.strip_prefix("```") {
-                block = if block.is_some() {
-                    None
-                } else {
-                    Some(fence.trim())
-                };
-                continue;
-            }
-            match block {
-                Some(language) if SHELLS.contains(&language) => {
-                    command.push_str(trimmed.trim_start_matches("$ "));
-                    if command.ends_with('\\') {
-                        command.pop();
-                    } else {
-                        page.add_commands(number, &std::mem::take(&mut command));
+        let line = |byte: usize| 1 + text[..byte].matches('\n').count();
+        let mut heading: Option<String> = None;
+        // A block of commands: where its text begins, and the text.
+        let mut block: Option<(usize, String)> = None;
+        let parser = parser(text);
+        let definitions = parser.reference_definitions().iter();
+        let mut links: Vec<_> = definitions
+            .map(|(_, link)| (link.span.start, link.dest.to_string()))
+            .collect();
+        for (event, range) in parser.into_offset_iter() {
+            match event {
+                Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+                Event::End(TagEnd::Heading(_)) => {
+                    page.add_heading(&heading.take().unwrap_or_default());
+                }
+                Event::Start(Tag::CodeBlock(kind)) => {
+                    let language = match &kind {
+                        CodeBlockKind::Fenced(language) => language.trim(),
+                        CodeBlockKind::Indented => "",
+                    };
+                    block = SHELLS
+                        .contains(&language)
+                        .then(|| (range.start, String::new()));
+                }
+                Event::End(TagEnd::CodeBlock) => {
+                    if let Some((start, commands)) = block.take() {
+                        page.add_block(line(start), &commands);
                     }
                 }
-                Some(_) => {}
-                None => page.prose(number, line),
+                Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                    links.push((range.start, dest_url.into_string()));
+                }
+                Event::Html(html) | Event::InlineHtml(html) => {
+                    let targets = attributes(&html);
+                    links.extend(targets.map(|target| (range.start, target.to_owned())));
+                }
+                Event::Code(code) => {
+                    page.add_commands(line(range.start), &code);
+                    heading
+                        .iter_mut()
+                        .for_each(|heading| heading.push_str(&code));
+                }
+                Event::Text(text) => {
+                    heading
+                        .iter_mut()
+                        .for_each(|heading| heading.push_str(&text));
+                    if let Some((start, commands)) = &mut block {
+                        if commands.is_empty() {
+                            *start = range.start;
+                        }
+                        commands.push_str(&text);
+                    }
+                }
+                _ => {}
             }
         }
+        links.sort();
+        // A link by its label is the definition's.
+        links.dedup();
+        page.links = (links.into_iter())
+            .map(|(start, text)| Item {
+                line: line(start),
+                text,
+            })
+            .collect();
         page
     }
 
-    fn prose(&mut self, number: usize, line: &str) {
-        if line.starts_with('#') {
-            self.add_heading(line.trim_start_matches('#').trim());
-        }
-        // Every second piece between backticks is code.
-        let mut prose = String::new();
-        for (index, piece) in line.split('`').enumerate() {
-            if index % 2 == 0 {
-                prose.push_str(piece);
+    fn add_block(&mut self, first: usize, text: &str) {
+        let mut command = String::new();
+        for (index, line) in text.lines().enumerate() {
+            command.push_str(line.trim().trim_start_matches("$ "));
+            if command.ends_with('\\') {
+                command.pop();
             } else {
-                self.add_commands(number, piece);
+                self.add_commands(first + index, &std::mem::take(&mut command));
             }
-        }
-        for target in targets(&prose) {
-            self.links.push(Item {
-                line: number,
-                text: target.to_owned(),
-            });
         }
     }
 
     fn add_heading(&mut self, heading: &str) {
+        if self.title.is_empty() {
+            self.title = heading.to_owned();
+        }
         let kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
         let slug: String = heading.to_lowercase().chars().filter(kept).collect();
         let slug = slug.replace(' ', "-");
@@ -101,24 +144,11 @@ impl Page {
     }
 }
 
-/// Where the links of a line lead: `[text](target)`, `[label]: target`, `src="target"` and
-/// `href="target"`.
-fn targets(line: &str) -> Vec<&str> {
-    let mut found = Vec::new();
-    for (opening, closing) in [("](", ')'), ("src=\"", '"'), ("href=\"", '"')] {
-        for rest in line.split(opening).skip(1) {
-            if let Some((target, _)) = rest.split_once(closing) {
-                // A title may follow the target.
-                found.extend(target.split_whitespace().next());
-            }
-        }
-    }
-    if line.starts_with('[')
-        && let Some((_, target)) = line.split_once("]: ")
-    {
-        found.extend(target.split_whitespace().next());
-    }
-    found
+/// Where the links in a piece of HTML lead: `src="target"` and `href="target"`.
+pub(crate) fn attributes(html: &str) -> impl Iterator<Item = &str> {
+    let after = |opening| html.split(opening).skip(1);
+    let rest = after(" src=\"").chain(after(" href=\""));
+    rest.filter_map(|rest| rest.split_once('"').map(|(target, _)| target))
 }
 
 #[cfg(test)]
@@ -137,13 +167,13 @@ mod tests {
     #[test]
     fn links_of_every_form_are_found_but_not_those_in_code() {
         let page = Page::parse(
-            "See [a](a.md) and ![b](b.png \"title\").\n\
-             [c]: c.md\n\
+            "See [a](a.md) and ![b](b.png \"title\").\n\n\
+             [c]: c.md\n\n\
              <img src=\"d.png\" width=\"3\"> `[not](this.md)`\n\
              ```rust\n[nor](that.md)\n```\n",
         );
         assert_eq!(texts(&page.links), ["a.md", "b.png", "c.md", "d.png"]);
-        assert_eq!(page.links[2].line, 2);
+        assert_eq!(page.links[2].line, 3);
     }
 
     #[test]

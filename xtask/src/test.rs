@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::cargo::{self, Executables};
-use crate::{commands, deny, examples, layers, licences, links, members, words};
+use crate::{commands, deny, examples, layers, licences, links, members, pictures, site, words};
 
 /// What earlier steps leave to later ones.
 #[derive(Default)]
@@ -31,6 +31,7 @@ const STEPS: &[Step] = &[
     ("licences", |_| licences::run()),
     ("words", |_| words::run()),
     ("links", |_| links::run()),
+    ("site", |_| site::run()),
     ("deny", |_| deny::run()),
     ("clippy", |_| {
         cargo::run(&mut cargo::cargo(
@@ -50,6 +51,7 @@ const STEPS: &[Step] = &[
     }),
     ("examples", |found| examples::run(&found.executables)),
     ("commands", |found| commands::run(&found.executables)),
+    ("pictures", |found| pictures::check(&found.executables)),
 ];
 
 /// Runs all steps, or all up to the first that fails.

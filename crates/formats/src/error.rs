@@ -218,10 +218,10 @@ pub enum Fault {
         folder: PathBuf,
     },
     /// A scene file that does not say what a scene file says.
-    #[error("{}", one_line(.0))]
+    #[error("{}", shown(.0))]
     Description(String),
     /// A document (glTF) that does not hold together.
-    #[error("{}: {}", one_line(.place), one_line(.message))]
+    #[error("{}: {}", shown(.place), shown(.message))]
     InDocument {
         /// Where in it, such as `meshes[0].primitives[0].indices`.
         place: String,
@@ -356,6 +356,18 @@ pub(crate) fn one_line(text: &str) -> String {
     line
 }
 
+/// A text out of a file in a message: on one line, and cut where it is longer than any that a person
+/// would give.
+pub(crate) fn shown(text: &str) -> String {
+    const MOST: usize = 400;
+    let mut line = one_line(text);
+    if let Some((end, _)) = line.char_indices().nth(MOST) {
+        line.truncate(end);
+        line.push_str("...");
+    }
+    line
+}
+
 pub(crate) fn plural(word: &str, count: u64) -> String {
     if count == 1 {
         word.to_owned()
@@ -368,7 +380,7 @@ fn ending_or_none(ending: &str) -> String {
     if ending.is_empty() {
         "a file without an ending".to_owned()
     } else {
-        format!("a .{} file", one_line(ending))
+        format!("a .{} file", shown(ending))
     }
 }
 

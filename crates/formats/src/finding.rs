@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::error::{one_line, plural};
+use crate::error::{plural, shown};
 
 /// Something in a file that its user should hear of, though the file could be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -140,12 +140,12 @@ impl fmt::Display for Finding {
                 line,
             } => {
                 if let Some(file) = file {
-                    write!(f, "{}: ", one_line(file))?;
+                    write!(f, "{}: ", shown(file))?;
                 }
                 if let Some(line) = line {
                     write!(f, "line {line}: ")?;
                 }
-                write!(f, "{what} \"{}\" not used", one_line(name))?;
+                write!(f, "{what} \"{}\" not used", shown(name))?;
                 if *count > 1 {
                     write!(f, " ({count} times)")?;
                 }
@@ -158,30 +158,30 @@ impl fmt::Display for Finding {
                 } else {
                     "default grey"
                 };
-                write!(f, "{what} {} not found: {instead} used", one_line(name))
+                write!(f, "{what} {} not found: {instead} used", shown(name))
             }
             Self::OutsideFolder { what, name } => write!(
                 f,
                 "{what} {} lies outside the model's folder: not opened",
-                one_line(name)
+                shown(name)
             ),
             Self::UndefinedMaterial { name, line } => write!(
                 f,
                 "line {line}: material \"{}\" is not defined: default grey used",
-                one_line(name)
+                shown(name)
             ),
             Self::InDocument {
                 place,
                 message,
                 count,
             } => {
-                write!(f, "{}: {}", one_line(place), one_line(message))?;
+                write!(f, "{}: {}", shown(place), shown(message))?;
                 if *count > 1 {
                     write!(f, " ({count} times)")?;
                 }
                 Ok(())
             }
-            Self::InModel { file, about } => write!(f, "{}: {about}", one_line(file)),
+            Self::InModel { file, about } => write!(f, "{}: {about}", shown(file)),
         }
     }
 }

@@ -3,6 +3,8 @@
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
 //! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), and pictures ([`read_texture`], [`read_image`]); out go
 //! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
+//! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
+//! [`scene::parse_scene`], which open no file at all.
 //!
 //! ```no_run
 //! use ombra_formats::{Limits, read_model};
@@ -31,6 +33,7 @@ mod glb;
 mod gltf;
 mod image;
 mod info;
+mod input;
 mod limits;
 mod mesh;
 mod number;
@@ -42,10 +45,11 @@ pub use finding::Finding;
 pub use glb::{GlbMaterial, GlbMesh, GlbModel};
 pub use gltf::{GltfFile, GltfInfo, parse_gltf, read_gltf};
 pub use image::{
-    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image, read_texture,
-    write_image,
+    Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image,
+    read_image_bytes, read_texture, read_texture_bytes, write_image,
 };
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
+pub use input::Assets;
 pub use limits::Limits;
-pub use mesh::{Model, ModelFormat, Part, read_model, with_normals};
+pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, with_normals};
 pub use whole::write_whole;

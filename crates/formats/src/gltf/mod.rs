@@ -42,10 +42,10 @@ use ombra_scene::Scene;
 
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
+use crate::input::Input;
 use crate::limits::Limits;
 use crate::mesh::ending;
 use crate::scene::Picture;
-use crate::source::Source;
 
 pub use info::GltfInfo;
 
@@ -91,14 +91,25 @@ pub fn read_gltf(
     test: TriangleTest,
     limits: &Limits,
 ) -> Result<GltfFile, FormatError> {
-    let path = path.as_ref();
-    let folder = Folder::Open(path.parent().unwrap_or(Path::new("")));
-    let read = || {
-        let bytes = Source::open(path, limits)?.rest()?;
-        read(&bytes, ending(path) == "glb", folder, test, limits)
+    read_input(&Input::on_disk(path.as_ref()), test, limits)
+}
+
+pub(crate) fn read_input(
+    input: &Input<'_>,
+    test: TriangleTest,
+    limits: &Limits,
+) -> Result<GltfFile, FormatError> {
+    let name = input.name();
+    let folder = match input.is_in_memory() {
+        true => Folder::None,
+        false => Folder::Open(name.parent().unwrap_or(Path::new(""))),
     };
-    let mut file = read().map_err(|error| error.in_file(path))?;
-    file.files.insert(0, path.to_owned());
+    let read = || {
+        let bytes = input.source(limits)?.rest()?;
+        read(&bytes, ending(name) == "glb", folder, test, limits)
+    };
+    let mut file = read().map_err(|error| error.in_file(name))?;
+    file.files.insert(0, name.to_owned());
     Ok(file)
 }
 

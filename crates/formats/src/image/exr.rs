@@ -1,9 +1,7 @@
 //! OpenEXR (Academy Software Foundation, "OpenEXR File Layout"): 32-bit floating-point numbers,
 //! linear, with all channels, compressed without loss.
 
-use std::fs::File;
-use std::io::{BufReader, Cursor, Write};
-use std::path::Path;
+use std::io::{Cursor, Write};
 
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
@@ -16,6 +14,7 @@ use ombra_scene::Rgb;
 use super::write::write_error;
 use super::{ImageBuffer, Metadata, check_size, image_fault};
 use crate::error::{Fault, FormatError};
+use crate::input::Input;
 use crate::limits::Limits;
 
 const NAME: &str = "EXR";
@@ -101,17 +100,14 @@ fn attribute_length(bytes: &[u8]) -> Option<usize> {
 }
 
 /// The headers, without any pixels.
-pub(super) fn headers(path: &Path) -> Result<MetaData, FormatError> {
-    let action = "be opened";
-    let file =
-        File::open(path).map_err(|source| FormatError::file(Fault::Io { action, source }))?;
-    MetaData::read_from_buffered(BufReader::new(file), false).map_err(|e| image_fault(NAME, &e))
+pub(super) fn headers(input: &Input<'_>) -> Result<MetaData, FormatError> {
+    MetaData::read_from_buffered(input.seekable()?, false).map_err(|e| image_fault(NAME, &e))
 }
 
 /// Reads the first layer. Without red, green and blue it is grey by its channel "Y", or else black
 /// with further channels.
-pub(super) fn read(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatError> {
-    for header in &headers(path)?.headers {
+pub(super) fn read(input: &Input<'_>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
+    for header in &headers(input)?.headers {
         let (width, height) = (header.layer_size.width(), header.layer_size.height());
         check_size(width as u64, height as u64, limits)?;
         let limit = limits.image_pixels.saturating_mul(32);
@@ -128,7 +124,7 @@ pub(super) fn read(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatEr
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_file(path)
+        .from_buffered(input.seekable()?)
         .map_err(|e| image_fault(NAME, &e))?;
     let layer = picture.layer_data;
     let (width, height) = (layer.size.width() as u32, layer.size.height() as u32);

@@ -1,8 +1,6 @@
 //! What a picture is, without decoding it.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 use exr::meta::attribute::AttributeValue;
@@ -11,6 +9,7 @@ use serde::Serialize;
 
 use super::{exr as exr_file, image_fault, netpbm, texture};
 use crate::error::{Fault, FormatError, one_line};
+use crate::input::Input;
 use crate::limits::Limits;
 
 /// What a picture's header says.
@@ -33,15 +32,16 @@ pub struct ImageInfo {
 /// Reads the header of a picture of any format that is read here.
 pub(crate) fn image_info(path: &Path) -> Result<ImageInfo, FormatError> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let input = Input::on_disk(path);
     match ending.to_ascii_lowercase().as_str() {
-        "exr" => exr_info(path),
-        "pfm" | "ppm" => netpbm_info(path),
-        _ => library_info(path),
+        "exr" => exr_info(&input),
+        "pfm" | "ppm" => netpbm_info(&input),
+        _ => library_info(&input),
     }
 }
 
-fn exr_info(path: &Path) -> Result<ImageInfo, FormatError> {
-    let headers = exr_file::headers(path)?.headers;
+fn exr_info(input: &Input<'_>) -> Result<ImageInfo, FormatError> {
+    let headers = exr_file::headers(input)?.headers;
     let header = headers
         .first()
         .ok_or_else(|| image_fault("EXR", &"no layer"))?;
@@ -86,13 +86,13 @@ fn attribute(value: &AttributeValue) -> Option<String> {
     })
 }
 
-fn netpbm_info(path: &Path) -> Result<ImageInfo, FormatError> {
+fn netpbm_info(input: &Input<'_>) -> Result<ImageInfo, FormatError> {
     let limits = Limits {
         image_pixels: u64::MAX,
         ..Limits::default()
     };
     let expected = "\"P6\", \"PF\" or \"Pf\" at the beginning of a PPM or PFM file";
-    let (_, header) = netpbm::open(path, &limits, expected, &[b"P6", b"PF", b"Pf"])?;
+    let (_, header) = netpbm::open(input, &limits, expected, &[b"P6", b"PF", b"Pf"])?;
     let names: &[&str] = if header.magic == *b"Pf" {
         &["Y"]
     } else {
@@ -113,8 +113,8 @@ fn netpbm_info(path: &Path) -> Result<ImageInfo, FormatError> {
     })
 }
 
-fn library_info(path: &Path) -> Result<ImageInfo, FormatError> {
-    let reader = texture::open(path)?;
+fn library_info(input: &Input<'_>) -> Result<ImageInfo, FormatError> {
+    let reader = texture::open(input)?;
     let format = texture::name(&reader);
     if reader.format().is_none() {
         return Err(FormatError::file(Fault::UnknownContent {
@@ -138,7 +138,7 @@ fn library_info(path: &Path) -> Result<ImageInfo, FormatError> {
         channels: names.iter().map(|&n| n.to_owned()).collect(),
         sample: format!("{bits} bit"),
         attributes: if format == "PNG" {
-            png_texts(path)?
+            png_texts(input)?
         } else {
             BTreeMap::new()
         },
@@ -146,11 +146,8 @@ fn library_info(path: &Path) -> Result<ImageInfo, FormatError> {
 }
 
 /// The texts in a PNG file before its pixels.
-fn png_texts(path: &Path) -> Result<BTreeMap<String, String>, FormatError> {
-    let action = "be opened";
-    let file =
-        File::open(path).map_err(|source| FormatError::file(Fault::Io { action, source }))?;
-    let reader = png::Decoder::new(BufReader::new(file))
+fn png_texts(input: &Input<'_>) -> Result<BTreeMap<String, String>, FormatError> {
+    let reader = png::Decoder::new(input.seekable()?)
         .read_info()
         .map_err(|e| image_fault("PNG", &e))?;
     let info = reader.info();

@@ -14,12 +14,13 @@ use std::path::Path;
 use ombra_scene::Rgb;
 use serde::Serialize;
 
-use crate::error::{Fault, FormatError, one_line};
+use crate::error::{Fault, FormatError, shown};
+use crate::input::Input;
 use crate::limits::Limits;
 
 pub use metadata::Metadata;
-pub use texture::read_texture;
-pub(crate) use texture::{mean_of_bytes, texture_of_bytes};
+pub(crate) use texture::{mean_of_bytes, texture, texture_of_bytes};
+pub use texture::{read_texture, read_texture_bytes};
 pub use write::{OutputFile, write_image};
 pub(crate) use write::{file_beside, write_error};
 
@@ -183,14 +184,30 @@ impl ImageBuffer {
 /// # Errors
 /// When the file cannot be opened, is broken, or has more pixels than `limits` allow.
 pub fn read_image(path: impl AsRef<Path>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
-    let path = path.as_ref();
-    let read = match ImageFormat::of(path)? {
-        ImageFormat::Png => texture::read_png(path, limits),
-        ImageFormat::Exr => exr::read(path, limits),
-        ImageFormat::Pfm => pfm::read(path, limits),
-        ImageFormat::Ppm => ppm::read(path, limits),
+    read(&Input::on_disk(path.as_ref()), limits)
+}
+
+/// Reads a picture that is in memory as [`read_image`] does; the ending of `name` chooses the
+/// format.
+///
+/// # Errors
+/// As those of [`read_image`].
+pub fn read_image_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    limits: &Limits,
+) -> Result<ImageBuffer, FormatError> {
+    read(&Input::in_memory(name.as_ref(), bytes), limits)
+}
+
+fn read(input: &Input<'_>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
+    let read = match ImageFormat::of(input.name())? {
+        ImageFormat::Png => texture::read_png(input, limits),
+        ImageFormat::Exr => exr::read(input, limits),
+        ImageFormat::Pfm => pfm::read(input, limits),
+        ImageFormat::Ppm => ppm::read(input, limits),
     };
-    read.map_err(|e| e.in_file(path))
+    read.map_err(|e| e.in_file(input.name()))
 }
 
 /// Refuses a picture by its size, before its pixels are read.
@@ -207,6 +224,6 @@ fn check_size(width: u64, height: u64, limits: &Limits) -> Result<(), FormatErro
 }
 
 fn image_fault(format: &'static str, error: &dyn std::fmt::Display) -> FormatError {
-    let message = one_line(&error.to_string());
+    let message = shown(&error.to_string());
     FormatError::file(Fault::Image { format, message })
 }

@@ -1,9 +1,8 @@
 //! The headers that PPM and PFM share: a magic word and numbers between blanks, with comments.
 
-use std::path::Path;
-
 use super::check_size;
 use crate::error::{Fault, FormatError, quoted};
+use crate::input::Input;
 use crate::limits::Limits;
 use crate::number::whole;
 use crate::source::Source;
@@ -20,13 +19,13 @@ pub(super) struct Header {
 }
 
 /// Opens a file and reads its header, so that its pixels are next.
-pub(super) fn open(
-    path: &Path,
+pub(super) fn open<'a>(
+    input: &Input<'a>,
     limits: &Limits,
     expected: &'static str,
     known: &[&[u8; 2]],
-) -> Result<(Source<'static>, Header), FormatError> {
-    let mut source = Source::open(path, limits)?;
+) -> Result<(Source<'a>, Header), FormatError> {
+    let mut source = input.source(limits)?;
     let magic: Option<[u8; 2]> = source.take(2)?.and_then(|m| m.try_into().ok());
     let magic = magic.unwrap_or_default();
     if !known.contains(&&magic) {

@@ -2,12 +2,12 @@
 //! written here, the bottom row first.
 
 use std::io::{self, Write};
-use std::path::Path;
 
 use ombra_scene::Rgb;
 
 use super::{ImageBuffer, netpbm};
 use crate::error::{Fault, FormatError, quoted};
+use crate::input::Input;
 use crate::limits::Limits;
 
 pub(super) fn write(file: &mut impl Write, image: &ImageBuffer) -> io::Result<()> {
@@ -22,9 +22,9 @@ pub(super) fn write(file: &mut impl Write, image: &ImageBuffer) -> io::Result<()
 }
 
 /// Reads colour (`PF`) and grey (`Pf`), of either byte order. The size of the scale is not applied.
-pub(super) fn read(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatError> {
+pub(super) fn read(input: &Input<'_>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
     let expected = "\"PF\" or \"Pf\" at the beginning of a PFM file";
-    let (mut source, header) = netpbm::open(path, limits, expected, &[b"PF", b"Pf"])?;
+    let (mut source, header) = netpbm::open(input, limits, expected, &[b"PF", b"Pf"])?;
     let components = if header.magic == *b"PF" { 3 } else { 1 };
     let scale: Option<f32> = str::from_utf8(&header.last)
         .ok()

@@ -4,12 +4,12 @@
 //! and read instead.
 
 use std::io::{self, Write};
-use std::path::Path;
 
 use ombra_scene::Rgb;
 
 use super::{ImageBuffer, Metadata, netpbm};
 use crate::error::{Fault, FormatError, one_line, quoted};
+use crate::input::Input;
 use crate::limits::Limits;
 use crate::number::whole;
 
@@ -27,9 +27,9 @@ pub(super) fn write(
 }
 
 /// Reads P6 with 8 or 16 bits a channel.
-pub(super) fn read(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatError> {
+pub(super) fn read(input: &Input<'_>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
     let expected = "\"P6\" at the beginning of a PPM file";
-    let (mut source, header) = netpbm::open(path, limits, expected, &[b"P6"])?;
+    let (mut source, header) = netpbm::open(input, limits, expected, &[b"P6"])?;
     let largest = match whole(&header.last, "largest value").map_err(FormatError::file)? {
         largest @ 1..=65535 => largest as f32,
         _ => {

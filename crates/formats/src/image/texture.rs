@@ -1,7 +1,5 @@
 //! Pictures for surfaces: PNG, JPEG, TGA and BMP, decoded from sRGB to linear light.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::Path;
 
 use image::{DynamicImage, ImageReader};
@@ -9,6 +7,7 @@ use ombra_scene::{Image, Rgb};
 
 use super::{ImageBuffer, check_size, image_fault};
 use crate::error::{Fault, FormatError};
+use crate::input::{Input, Seekable};
 use crate::limits::Limits;
 
 /// Reads a PNG, JPEG, TGA or BMP file as a texture. Opacity is not read.
@@ -17,18 +16,34 @@ use crate::limits::Limits;
 /// When the file cannot be opened, is broken, or has more pixels than `limits` allow, which is
 /// found out before they are decoded.
 pub fn read_texture(path: impl AsRef<Path>, limits: &Limits) -> Result<Image, FormatError> {
-    let path = path.as_ref();
+    texture(&Input::on_disk(path.as_ref()), limits)
+}
+
+/// Reads a texture that is in memory as [`read_texture`] does. The content says what it is; the
+/// ending of `name` does for TGA, which has no mark of its own.
+///
+/// # Errors
+/// As those of [`read_texture`].
+pub fn read_texture_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    limits: &Limits,
+) -> Result<Image, FormatError> {
+    texture(&Input::in_memory(name.as_ref(), bytes), limits)
+}
+
+pub(crate) fn texture(input: &Input<'_>, limits: &Limits) -> Result<Image, FormatError> {
     let read = || {
-        let (width, height, pixels) = linear(decode(path, limits)?);
+        let (width, height, pixels) = linear(decode(input, limits)?);
         let count = pixels.len() as u64;
         Image::new(width, height, pixels).ok_or_else(|| pixel_count(width, height, count))
     };
-    read().map_err(|e| e.in_file(path))
+    read().map_err(|e| e.in_file(input.name()))
 }
 
 /// The same with opacity as the channel "A".
-pub(super) fn read_png(path: &Path, limits: &Limits) -> Result<ImageBuffer, FormatError> {
-    let decoded = decode(path, limits)?;
+pub(super) fn read_png(input: &Input<'_>, limits: &Limits) -> Result<ImageBuffer, FormatError> {
+    let decoded = decode(input, limits)?;
     let alpha = decoded.color().has_alpha().then(|| alpha(&decoded));
     let (width, height, pixels) = linear(decoded);
     let image = ImageBuffer::new(width, height, pixels)?;
@@ -44,7 +59,7 @@ pub(crate) fn texture_of_bytes(
     with_alpha: bool,
     limits: &Limits,
 ) -> Result<Image, FormatError> {
-    let decoded = decode_bytes(bytes, limits)?;
+    let decoded = decode(&Input::in_memory("", bytes), limits)?;
     let alpha = (with_alpha && decoded.color().has_alpha()).then(|| alpha(&decoded));
     let (width, height, pixels) = linear(decoded);
     let count = pixels.len() as u64;
@@ -59,7 +74,7 @@ pub(crate) fn texture_of_bytes(
 /// The mean of a picture that is in memory and holds no colours: red, green and blue as they are
 /// written, 0 to 1.
 pub(crate) fn mean_of_bytes(bytes: &[u8], limits: &Limits) -> Result<[f32; 3], FormatError> {
-    let pixels = decode_bytes(bytes, limits)?.into_rgb8();
+    let pixels = decode(&Input::in_memory("", bytes), limits)?.into_rgb8();
     let count = u64::from(pixels.width()) * u64::from(pixels.height());
     let mut sums = [0_u64; 3];
     for pixel in pixels.pixels() {
@@ -70,13 +85,21 @@ pub(crate) fn mean_of_bytes(bytes: &[u8], limits: &Limits) -> Result<[f32; 3], F
     Ok(sums.map(|sum| (sum as f64 / (255.0 * count.max(1) as f64)) as f32))
 }
 
-pub(super) fn open(path: &Path) -> Result<ImageReader<BufReader<File>>, FormatError> {
-    let cannot = |action| move |source| FormatError::file(Fault::Io { action, source });
-    let reader = ImageReader::open(path).map_err(cannot("be opened"))?;
-    reader.with_guessed_format().map_err(cannot("be read"))
+/// What the library reads from.
+pub(super) type Reader<'a> = ImageReader<Box<dyn Seekable + 'a>>;
+
+pub(super) fn open<'a>(input: &Input<'a>) -> Result<Reader<'a>, FormatError> {
+    let mut reader = ImageReader::new(input.seekable()?);
+    if let Ok(format) = image::ImageFormat::from_path(input.name()) {
+        reader.set_format(format);
+    }
+    reader.with_guessed_format().map_err(|source| {
+        let action = "be read";
+        FormatError::file(Fault::Io { action, source })
+    })
 }
 
-pub(super) fn name<R: BufRead + Seek>(reader: &ImageReader<R>) -> &'static str {
+pub(super) fn name(reader: &Reader<'_>) -> &'static str {
     use image::ImageFormat;
     match reader.format() {
         Some(ImageFormat::Png) => "PNG",
@@ -87,31 +110,13 @@ pub(super) fn name<R: BufRead + Seek>(reader: &ImageReader<R>) -> &'static str {
     }
 }
 
-fn decode(path: &Path, limits: &Limits) -> Result<DynamicImage, FormatError> {
-    decode_twice(|| open(path), limits)
-}
-
-fn decode_bytes(bytes: &[u8], limits: &Limits) -> Result<DynamicImage, FormatError> {
-    let open = || {
-        let reader = ImageReader::new(Cursor::new(bytes));
-        reader.with_guessed_format().map_err(|source| {
-            let action = "be read";
-            FormatError::file(Fault::Io { action, source })
-        })
-    };
-    decode_twice(open, limits)
-}
-
 /// First the header alone, so that a picture that is too large is refused before it is decoded.
-fn decode_twice<R: BufRead + Seek>(
-    open: impl Fn() -> Result<ImageReader<R>, FormatError>,
-    limits: &Limits,
-) -> Result<DynamicImage, FormatError> {
-    let reader = open()?;
+fn decode(input: &Input<'_>, limits: &Limits) -> Result<DynamicImage, FormatError> {
+    let reader = open(input)?;
     let name = name(&reader);
     let (width, height) = (reader.into_dimensions()).map_err(|e| image_fault(name, &e))?;
     check_size(width.into(), height.into(), limits)?;
-    let mut reader = open()?;
+    let mut reader = open(input)?;
     let mut library_limits = image::Limits::default();
     // The most that a decoder may hold: sixteen bits in each of four channels.
     library_limits.max_alloc = Some(limits.image_pixels.saturating_mul(8));

@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
+use crate::input::{Assets, Input};
 use crate::limits::Limits;
 use crate::source::Source;
 
@@ -35,7 +36,7 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// What its user should hear of.
     pub findings: Vec<Finding>,
-    /// The files that were read for it, its own first; none for a model in memory.
+    /// The files that were read for it, its own first.
     pub files: Vec<PathBuf>,
     /// How many vertices the file defines. The parts have more where normals or texture
     /// coordinates split them, and fewer where no triangle uses them.
@@ -154,30 +155,41 @@ impl Model {
 /// listed in [`Model::findings`].
 pub fn read_model(path: impl AsRef<Path>, limits: &Limits) -> Result<Model, FormatError> {
     let path = path.as_ref();
-    let mut model = Source::open(path, limits)
-        .and_then(|source| read(source, path, limits))
-        .map_err(|e| e.in_file(path))?;
-    model.files.insert(0, path.to_owned());
-    Ok(model)
+    read(&Input::on_disk(path), &Assets::beside(path), limits)
 }
 
-/// Reads a model that is in memory; the ending of its name says what it is, as in [`read_model`]. It
-/// cannot refer to other files.
+/// Reads a model that is in memory, with `assets` to find the files that it names; the ending of
+/// `name` says what it is, as in [`read_model`].
 ///
 /// # Errors
 /// As those of [`read_model`].
-pub(crate) fn read_model_bytes(
+pub fn read_model_bytes(
     name: impl AsRef<Path>,
     bytes: &[u8],
+    assets: &Assets<'_>,
     limits: &Limits,
 ) -> Result<Model, FormatError> {
-    let name = name.as_ref();
-    Source::new(bytes, bytes.len() as u64, limits)
-        .and_then(|source| read(source, name, limits))
-        .map_err(|e| e.in_file(name))
+    read(&Input::in_memory(name.as_ref(), bytes), assets, limits)
 }
 
-fn read(mut source: Source<'_>, path: &Path, limits: &Limits) -> Result<Model, FormatError> {
+pub(crate) fn read(
+    input: &Input<'_>,
+    assets: &Assets<'_>,
+    limits: &Limits,
+) -> Result<Model, FormatError> {
+    let mut model = (input.source(limits))
+        .and_then(|source| read_source(source, input.name(), assets, limits))
+        .map_err(|e| e.in_file(input.name()))?;
+    model.files.insert(0, input.name().to_owned());
+    Ok(model)
+}
+
+fn read_source(
+    mut source: Source<'_>,
+    path: &Path,
+    assets: &Assets<'_>,
+    limits: &Limits,
+) -> Result<Model, FormatError> {
     if source.peek(1)?.is_empty() {
         return Err(FormatError::file(Fault::Empty));
     }
@@ -185,7 +197,7 @@ fn read(mut source: Source<'_>, path: &Path, limits: &Limits) -> Result<Model, F
         return ply::read(&mut source);
     }
     match ending(path).as_str() {
-        "obj" => obj::read(&mut source, path, limits),
+        "obj" => obj::read(&mut source, assets, limits),
         "ply" => ply::read(&mut source),
         "stl" => stl::read(&mut source),
         "gltf" | "glb" => Err(FormatError::file(Fault::Unexpected {

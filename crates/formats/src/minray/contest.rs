@@ -293,7 +293,7 @@ mod tests {
             ("1.5,\n}", "nan,\n}", "7", "finite number"),
             (" 1,  .5, .25", " 0,  .5, .25", "7", "radius is 0"),
             (".25, .25, 0", ".25, -1, 0", "7", "kt is -1; 0 or more"),
-            ("SPHERE", "SPHERES", "6", "SPHERE = {...}"),
+            ("SPHERE =", "SPHERES =", "6", "SPHERE = {...}"),
             (
                 "AMBIENT = {.5, 0, 1.};",
                 "",

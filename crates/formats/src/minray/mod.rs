@@ -7,4 +7,4 @@ mod scene;
 mod words;
 
 pub use contest::{Contest, ContestSphere, parse_contest, read_contest};
-pub use picture::{ContestPicture, read_contest_picture};
+pub use picture::{ContestPicture, read_contest_picture, read_contest_picture_bytes};

@@ -7,6 +7,7 @@ use std::path::Path;
 use ombra_scene::Rgb;
 
 use crate::error::{Fault, FormatError};
+use crate::input::Input;
 use crate::limits::{Limits, take_pixels};
 use crate::number::{Words, finite, whole};
 use crate::source::Source;
@@ -74,10 +75,25 @@ pub fn read_contest_picture(
     path: impl AsRef<Path>,
     limits: &Limits,
 ) -> Result<ContestPicture, FormatError> {
-    let path = path.as_ref();
-    Source::open(path, limits)
+    read_input(&Input::on_disk(path.as_ref()), limits)
+}
+
+/// Reads a picture of the contest that is in memory; `name` is for messages.
+///
+/// # Errors
+/// As those of [`read_contest_picture`].
+pub fn read_contest_picture_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    limits: &Limits,
+) -> Result<ContestPicture, FormatError> {
+    read_input(&Input::in_memory(name.as_ref(), bytes), limits)
+}
+
+fn read_input(input: &Input<'_>, limits: &Limits) -> Result<ContestPicture, FormatError> {
+    (input.source(limits))
         .and_then(|source| read(source, limits))
-        .map_err(|error| error.in_file(path))
+        .map_err(|error| error.in_file(input.name()))
 }
 
 fn read(mut source: Source<'_>, limits: &Limits) -> Result<ContestPicture, FormatError> {

@@ -10,20 +10,12 @@ use ombra_scene::{Image, Material, Texture};
 use super::build::wrong;
 use crate::error::FormatError;
 use crate::finding::Finding;
-use crate::gltf::{GltfFile, read_gltf};
-use crate::image::read_texture;
+use crate::gltf::{self, GltfFile};
+use crate::image::texture;
+use crate::input::{Assets, Input};
 use crate::limits::{Limits, take_pixels};
-use crate::mesh::{Model, read_model, read_model_bytes, resolve};
+use crate::mesh::{self, Model};
 use crate::sha256::Content;
-
-/// Where the files are that a scene file refers to.
-#[derive(Clone, Debug)]
-pub enum Assets<'a> {
-    /// In a folder. Nothing outside of it is opened.
-    Folder(PathBuf),
-    /// In memory: names and contents.
-    Embedded(&'a [(&'a str, &'a [u8])]),
-}
 
 /// Reads assets within limits that hold for all of them together.
 pub(super) struct Loader<'a> {
@@ -48,28 +40,23 @@ impl<'a> Loader<'a> {
     }
 
     pub(super) fn model(&mut self, name: &str) -> Result<Model, FormatError> {
-        let model = match self.assets {
-            Assets::Folder(folder) => read_model(path(folder, name, "model")?, &self.limits)?,
-            Assets::Embedded(files) => {
-                let file = files.iter().find(|(known, _)| *known == name);
-                let (_, bytes) = file.ok_or_else(|| missing(name, "model"))?;
-                self.content.take(bytes);
-                read_model_bytes(Path::new(name), bytes, &self.limits)?
-            }
+        let input = find(self.assets, name, "model")?;
+        // What a model on disk names is looked for beside it.
+        let beside = match self.assets {
+            Assets::Folder(_) => Assets::beside(input.name()),
+            Assets::Embedded(files) => Assets::Embedded(files),
         };
-        self.content.take_files(&model.files)?;
+        let model = mesh::read(&input, &beside, &self.limits)?;
+        self.take(&model.files)?;
         self.account(&model.materials)?;
         Ok(model)
     }
 
     /// The scene of a glTF file.
     pub(super) fn gltf(&mut self, name: &str, test: TriangleTest) -> Result<GltfFile, FormatError> {
-        let file = match self.assets {
-            Assets::Folder(folder) => read_gltf(path(folder, name, "model")?, test, &self.limits)?,
-            // No built-in scene has one.
-            Assets::Embedded(_) => return Err(missing(name, "model")),
-        };
-        self.content.take_files(&file.files)?;
+        let input = find(self.assets, name, "model")?;
+        let file = gltf::read_input(&input, test, &self.limits)?;
+        self.take(&file.files)?;
         self.account(&file.scene.materials)?;
         Ok(file)
     }
@@ -97,32 +84,41 @@ impl<'a> Loader<'a> {
 
     /// A texture; each file is read once.
     pub(super) fn image(&mut self, name: &str) -> Result<Arc<Image>, FormatError> {
-        let path = match self.assets {
-            Assets::Folder(folder) => path(folder, name, "texture")?,
-            // No built-in scene has a texture.
-            Assets::Embedded(_) => return Err(missing(name, "texture")),
-        };
+        let input = find(self.assets, name, "texture")?;
+        let path = input.name().to_owned();
         if let Some(image) = self.images.get(&path) {
             return Ok(Arc::clone(image));
         }
-        let image = Arc::new(read_texture(&path, &self.limits)?);
+        let image = Arc::new(texture(&input, &self.limits)?);
         take_pixels(&mut self.limits, image.width(), image.height())
             .map_err(|e| e.in_file(&path))?;
-        self.content.take_files(std::slice::from_ref(&path))?;
+        self.take(std::slice::from_ref(&path))?;
         self.images.insert(path, Arc::clone(&image));
         Ok(image)
     }
+
+    /// Takes what has been read into the hash.
+    fn take(&mut self, files: &[PathBuf]) -> Result<(), FormatError> {
+        match self.assets {
+            Assets::Folder(_) => self.content.take_files(files),
+            Assets::Embedded(known) => {
+                for file in files {
+                    let named = known.iter().filter(|(name, _)| Path::new(name) == file);
+                    named
+                        .take(1)
+                        .for_each(|(_, bytes)| self.content.take(bytes));
+                }
+                Ok(())
+            }
+        }
+    }
 }
 
-fn path(folder: &Path, name: &str, what: &'static str) -> Result<PathBuf, FormatError> {
-    resolve(folder, name, what).map_err(|finding| match finding {
+fn find<'a>(assets: &Assets<'a>, name: &str, what: &'static str) -> Result<Input<'a>, FormatError> {
+    assets.find(name, what).map_err(|finding| match finding {
         Finding::OutsideFolder { .. } => wrong(format!(
             "{what} {name} lies outside the scene file's folder: not opened"
         )),
-        _ => missing(name, what),
+        _ => wrong(format!("{what} {name} not found")),
     })
-}
-
-fn missing(name: &str, what: &'static str) -> FormatError {
-    wrong(format!("{what} {name} not found"))
 }

@@ -21,7 +21,7 @@ use crate::error::{Fault, FormatError, Place};
 use crate::finding::Finding;
 use crate::limits::Limits;
 
-pub use assets::Assets;
+pub use crate::input::Assets;
 pub use picture::Picture;
 
 /// What a scene file holds.
@@ -52,9 +52,8 @@ pub fn read_scene(
     limits: &Limits,
 ) -> Result<SceneFile, FormatError> {
     let path = path.as_ref();
-    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
     text_of(path)
-        .and_then(|text| parse_scene(&text, &Assets::Folder(folder), test, limits))
+        .and_then(|text| parse_scene(&text, &Assets::beside(path), test, limits))
         .map_err(|e| e.in_file(path))
 }
 

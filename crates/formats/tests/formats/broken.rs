@@ -15,6 +15,20 @@ fn every_index_beyond_the_vertices_is_named_with_its_line() {
 }
 
 #[test]
+fn a_name_without_end_is_told_by_its_beginning() {
+    // A control character takes five to spell out.
+    let name = "x\u{1}".repeat(4000);
+    let text =
+        format!("mtllib {name}\n{name} 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl {name}\nf 1 2 3\n");
+    let findings = findings(&read("a.obj", text));
+    assert_eq!(findings.len(), 3, "{findings:?}");
+    for finding in findings {
+        assert!(finding.contains('x'), "{finding}");
+        assert!(finding.len() < 500, "{} bytes", finding.len());
+    }
+}
+
+#[test]
 fn every_coordinate_that_is_no_number_is_named_with_its_line() {
     let text = "v 0 0 0\nv nan 0 0\nv 0 inf 0\nv 1e39 0 0\nv 1 1 0\nf 1 2 3\nf 1 4 5\n";
     let needed = "a finite number is needed (of size up to 3.4e38)";

@@ -1,6 +1,7 @@
 //! Reading and writing whole files.
 
 mod broken;
+mod fuzzed;
 mod gltf;
 mod hostile;
 mod images;

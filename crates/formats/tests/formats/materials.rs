@@ -1,6 +1,10 @@
 //! What materials files come out as.
 
-use ombra_formats::{ImageBuffer, Limits, Metadata, Model, read_model, write_image};
+use std::path::PathBuf;
+
+use ombra_formats::{
+    Assets, ImageBuffer, Limits, Metadata, Model, read_model, read_model_bytes, write_image,
+};
 use ombra_scene::{Material, Rgb, Texture};
 
 use super::{Folder, findings, read_in};
@@ -221,5 +225,32 @@ fn a_texture_is_linear_and_tinted_by_kd() {
     assert!(
         error.to_string().contains("over the limit of 0 pixels"),
         "{error}"
+    );
+}
+
+#[test]
+fn a_model_in_memory_finds_its_materials_there_and_nowhere_else() {
+    const OBJ: &[u8] = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+    const MTL: &[u8] = b"newmtl red\nKd 1 0 0\nmap_Kd t.tga\n";
+    let pixel = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x01\0\x01\0\x18\0\xff\xff\xff";
+    let limits = Limits::default();
+    let files = [("a.mtl", MTL), ("t.tga", pixel.as_slice())];
+    let model = read_model_bytes("a.obj", OBJ, &Assets::Embedded(&files), &limits).unwrap();
+    assert_eq!(
+        model.materials[0].diffuse.average(),
+        Rgb::new(1.0, 0.0, 0.0)
+    );
+    assert_eq!(model.files, ["a.obj", "a.mtl", "t.tga"].map(PathBuf::from));
+    assert_eq!(findings(&model), [""; 0]);
+    // A file of that name in the current folder is not it.
+    let folder = Folder::with(&[("a.mtl", MTL)]);
+    let name = folder.path("a.obj");
+    let model = read_model_bytes(name, OBJ, &Assets::Embedded(&[]), &limits).unwrap();
+    assert_eq!(
+        findings(&model),
+        [
+            "materials file a.mtl not found: default grey used",
+            "line 5: material \"red\" is not defined: default grey used",
+        ]
     );
 }

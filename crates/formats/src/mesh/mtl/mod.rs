@@ -4,16 +4,16 @@
 mod definition;
 
 use std::collections::{HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use ombra_scene::{Image, Material, Rgb};
 
 use super::obj::Unused;
-use super::reference::resolve;
 use crate::error::{Fault, FormatError, quoted};
 use crate::finding::Finding;
-use crate::image::read_texture;
+use crate::image::texture;
+use crate::input::{Assets, Input};
 use crate::limits::{Limits, take_pixels};
 use crate::number::Words;
 use crate::source::Source;
@@ -23,8 +23,8 @@ use definition::Definition;
 const TEXTURE: &str = "texture";
 
 /// The materials that the materials files of a model define, and the textures loaded so far.
-pub(super) struct Library {
-    folder: PathBuf,
+pub(super) struct Library<'a> {
+    assets: &'a Assets<'a>,
     definitions: HashMap<String, Definition>,
     images: HashMap<PathBuf, Arc<Image>>,
     /// What was read.
@@ -33,18 +33,18 @@ pub(super) struct Library {
     limits: Limits,
 }
 
-impl Library {
-    /// Reads the materials files of a model in `folder`. A name that is not there as a whole may be
+impl<'a> Library<'a> {
+    /// Reads the materials files that a model names. A name that is not there as a whole may be
     /// several with blanks between.
     pub(super) fn load(
-        folder: &Path,
+        assets: &'a Assets<'a>,
         names: &[String],
         limits: &Limits,
         findings: &mut Vec<Finding>,
     ) -> Result<Self, FormatError> {
         const WHAT: &str = "materials file";
         let mut library = Self {
-            folder: folder.to_owned(),
+            assets,
             definitions: HashMap::new(),
             images: HashMap::new(),
             files: Vec::new(),
@@ -53,12 +53,12 @@ impl Library {
         let mut seen = HashSet::new();
         for name in names.iter().filter(|name| seen.insert(name.as_str())) {
             let several = name.split_whitespace().count() > 1;
-            match resolve(folder, name, WHAT) {
-                Ok(path) => library.read_file(&path, name, findings)?,
+            match assets.find(name, WHAT) {
+                Ok(input) => library.read_file(&input, name, findings)?,
                 Err(_) if several => {
                     for name in name.split_whitespace() {
-                        match resolve(folder, name, WHAT) {
-                            Ok(path) => library.read_file(&path, name, findings)?,
+                        match assets.find(name, WHAT) {
+                            Ok(input) => library.read_file(&input, name, findings)?,
                             Err(finding) => findings.push(finding),
                         }
                     }
@@ -71,14 +71,15 @@ impl Library {
 
     fn read_file(
         &mut self,
-        path: &Path,
+        input: &Input<'_>,
         name: &str,
         findings: &mut Vec<Finding>,
     ) -> Result<(), FormatError> {
-        self.files.push(path.to_owned());
-        Source::open(path, &self.limits)
+        self.files.push(input.name().to_owned());
+        input
+            .source(&self.limits)
             .and_then(|mut source| self.read(&mut source, name, findings))
-            .map_err(|e| e.in_file(path))
+            .map_err(|e| e.in_file(input.name()))
     }
 
     fn read(
@@ -150,9 +151,9 @@ impl Library {
             });
         }
         if let Some(texture) = definition.texture() {
-            match resolve(&self.folder, texture, TEXTURE) {
-                Ok(path) => {
-                    let image = self.image(&path)?;
+            match self.assets.find(texture, TEXTURE) {
+                Ok(input) => {
+                    let image = self.image(&input)?;
                     let factor = material.diffuse.average();
                     material.diffuse = self.tinted(image, factor)?.into();
                 }
@@ -167,11 +168,12 @@ impl Library {
         self.files
     }
 
-    fn image(&mut self, path: &Path) -> Result<Arc<Image>, FormatError> {
+    fn image(&mut self, input: &Input<'_>) -> Result<Arc<Image>, FormatError> {
+        let path = input.name();
         if let Some(image) = self.images.get(path) {
             return Ok(Arc::clone(image));
         }
-        let image = read_texture(path, &self.limits)?;
+        let image = texture(input, &self.limits)?;
         self.account(&image).map_err(|e| e.in_file(path))?;
         let image = Arc::new(image);
         self.files.push(path.to_owned());

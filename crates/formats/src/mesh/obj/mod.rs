@@ -8,13 +8,13 @@ mod corner;
 mod parts;
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use ombra_geometry::{Normal3, Point3};
 
 use super::mtl::Library;
 use super::{Model, ModelFormat};
 use crate::error::{Fault, FormatError, Place, quoted};
+use crate::input::Assets;
 use crate::limits::Limits;
 use crate::number::{Words, finite, finite_row, whole};
 use crate::source::Source;
@@ -29,16 +29,15 @@ const FAULTS_SHOWN: usize = 4;
 
 pub(super) fn read(
     source: &mut Source<'_>,
-    path: &Path,
+    assets: &Assets<'_>,
     limits: &Limits,
 ) -> Result<Model, FormatError> {
     let mut content = Content::default();
     content.read_lines(source)?;
     content.check()?;
-    let folder = path.parent().unwrap_or(Path::new(""));
     let mut findings = Vec::new();
     std::mem::take(&mut content.unused).report(None, &mut findings);
-    let library = Library::load(folder, &content.libraries, limits, &mut findings)?;
+    let library = Library::load(assets, &content.libraries, limits, &mut findings)?;
     parts::model(content, library, findings)
 }
 

@@ -29,7 +29,7 @@ impl Triangle {
 
 pub(super) fn model(
     mut content: Content,
-    mut library: Library,
+    mut library: Library<'_>,
     mut findings: Vec<Finding>,
 ) -> Result<Model, FormatError> {
     let vertices = content.positions.len() as u64;

@@ -1,6 +1,6 @@
 //! The header: which elements follow, and what their rows are made of.
 
-use crate::error::{Fault, FormatError, one_line, quoted};
+use crate::error::{Fault, FormatError, quoted, shown};
 use crate::number::{Words, whole};
 use crate::source::Source;
 
@@ -173,7 +173,7 @@ fn read_element(words: &mut Words<'_>) -> Result<Element, Fault> {
     let count = (words.next()).ok_or_else(|| unexpected(None, "the number of rows"))?;
     let rows = whole(count, "number of rows")?;
     Ok(Element {
-        name: one_line(&String::from_utf8_lossy(name)),
+        name: shown(&String::from_utf8_lossy(name)),
         count: u64::try_from(rows)
             .map_err(|_| unexpected(Some(count), "a number of rows of 0 or more"))?,
         properties: Vec::new(),
@@ -205,7 +205,7 @@ fn read_property(words: &mut Words<'_>) -> Result<Property, Fault> {
     }
     let name = (words.next()).ok_or_else(|| unexpected(None, "the property's name"))?;
     Ok(Property {
-        name: one_line(&String::from_utf8_lossy(name)),
+        name: shown(&String::from_utf8_lossy(name)),
         kind,
     })
 }

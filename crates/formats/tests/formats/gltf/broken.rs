@@ -22,6 +22,15 @@ fn error_in(folder: &Folder, name: &str) -> String {
 }
 
 #[test]
+fn a_key_without_end_is_told_by_its_beginning() {
+    let text = format!("{{\"{}\":[1,]}}", "key ".repeat(4000));
+    let folder = Folder::with(&[("key.gltf", text.as_bytes())]);
+    let error = error_in(&folder, "key.gltf");
+    assert!(error.starts_with("key.gltf: key key "), "{error}");
+    assert!(error.len() < 1000, "{} bytes", error.len());
+}
+
+#[test]
 fn containers_that_are_cut_empty_or_something_else_are_refused() {
     let whole = Doc::triangle("", "").glb();
     let mut other = whole.clone();
