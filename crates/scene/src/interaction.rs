@@ -27,6 +27,8 @@ pub struct Interaction {
     pub wo: Vector3,
     /// How far `point` may be from the surface as the next ray's test sees it.
     error: f32,
+    /// See [`Scene::t_min`](crate::Scene::t_min).
+    t_min: f32,
 }
 
 // What rounding does to a place, as multiples of numbers that went into it. One rounding moves a
@@ -94,6 +96,7 @@ impl Interaction {
             error: WORLD_ROUNDING * point.to_vector().max_norm()
                 + in_object * growth(world_from_object)
                 + local.slide,
+            t_min: 0.0,
         }
     }
 
@@ -119,6 +122,12 @@ impl Interaction {
         Self::of_local(ray, &local, world_from_object)
     }
 
+    /// The same place, in a scene whose rays begin to look at this distance.
+    #[must_use]
+    pub(crate) const fn looking_from(self, t_min: f32) -> Self {
+        Self { t_min, ..self }
+    }
+
     /// Whether the ray came from the outside.
     #[must_use]
     #[inline]
@@ -131,7 +140,10 @@ impl Interaction {
     #[must_use]
     #[inline]
     pub fn spawn(&self, direction: Vector3) -> Ray {
-        Ray::new(self.off_surface(direction), direction)
+        Ray {
+            t_min: self.t_min,
+            ..Ray::new(self.off_surface(direction), direction)
+        }
     }
 
     /// A ray from here that ends before a distance, which may be infinite, in units of the length

@@ -19,7 +19,11 @@ pub(crate) fn is_there(scene: &Scene, ray: &Ray<f64>, candidate: &Candidate) -> 
     if material.one_sided {
         // In the object's own space: a transform that mirrors turns the order in which corners are
         // met, but not the side that is outside.
-        let ray = object.world_from_object.inverse().ray(ray);
+        let ray = if object.world_from_object.is_identity() {
+            *ray
+        } else {
+            object.world_from_object.inverse().ray(ray)
+        };
         let normal = match geometry {
             Geometry::Mesh(mesh) => mesh.mesh().geometric_normal(primitive),
             Geometry::Shapes(shapes) => {

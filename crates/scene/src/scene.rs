@@ -35,6 +35,10 @@ pub struct Scene {
     pub background: Background,
     /// What is seen where rays are followed no further.
     pub cutoff: Cutoff,
+    /// Where rays that leave a surface begin to look, as a distance along them; 0 or more. They start
+    /// off their surface by what rounding demands, so 0 will do. More looks past what is that near: an
+    /// old way to keep a surface from shading itself, which old pictures show.
+    pub t_min: f32,
     /// The camera, if the description names one.
     pub camera: Option<Camera>,
     /// Which way is up, for a camera and lights that have to be made up. Of any length but 0.
@@ -52,6 +56,7 @@ impl Default for Scene {
             ambient: Rgb::BLACK,
             background: Background::default(),
             cutoff: Cutoff::default(),
+            t_min: 0.0,
             camera: None,
             up: Vector3::Y,
         }

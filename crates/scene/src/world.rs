@@ -94,6 +94,7 @@ impl World {
         let object = &self.scene.objects[hit.instance.index()];
         let geometry = &self.scene.geometries[hit.geometry.index()];
         Interaction::new(ray, hit, geometry, &object.world_from_object)
+            .looking_from(self.scene.t_min)
     }
 
     /// The box around everything that has an end: endless shapes, such as planes, are left out.

@@ -76,6 +76,7 @@ pub(super) fn build(
     };
     builder.scene.background = background(description.background)?;
     builder.scene.cutoff = description.cutoff.into();
+    builder.scene.t_min = at_least_zero("t_min", description.t_min)?;
     builder.scene.ambient = colour("ambient", description.ambient)?;
     for (name, spec) in description.materials {
         builder.at(&spec, |b, spec| b.material(name, spec))?;
@@ -133,6 +134,7 @@ impl Builder<'_> {
                 .internal_reflection
                 .unwrap_or(default.internal_reflection),
             emission,
+            one_sided: spec.one_sided,
             name: name.clone(),
             ..default
         };
@@ -345,12 +347,7 @@ impl Builder<'_> {
                 shift: finite("shift", spec.shift)?,
             }),
             ProjectionSpec::ThinLens(spec) => {
-                let lens_radius = spec.lens_radius;
-                if !(0.0..=f32::MAX).contains(&lens_radius) {
-                    return Err(wrong(format!(
-                        "lens_radius is {lens_radius}; 0 or more is needed"
-                    )));
-                }
+                let lens_radius = at_least_zero("lens_radius", spec.lens_radius)?;
                 Projection::ThinLens(ThinLens {
                     fov: fov(spec.fov)?,
                     lens_radius,
@@ -496,6 +493,14 @@ fn finite<const N: usize>(what: impl Display, numbers: [f32; N]) -> Result<[f32;
         Err(wrong(format!(
             "{what} is {numbers:?}; finite numbers are needed"
         )))
+    }
+}
+
+pub(super) fn at_least_zero(what: impl Display, number: f32) -> Result<f32, FormatError> {
+    if (0.0..=f32::MAX).contains(&number) {
+        Ok(number)
+    } else {
+        Err(wrong(format!("{what} is {number}; 0 or more is needed")))
     }
 }
 

@@ -20,6 +20,8 @@ pub(super) struct Description {
     #[serde(default)]
     pub(super) cutoff: CutoffSpec,
     #[serde(default)]
+    pub(super) t_min: f32,
+    #[serde(default)]
     pub(super) ambient: ColourSpec,
     #[serde(default)]
     pub(super) materials: BTreeMap<String, Spanned<MaterialSpec>>,
@@ -184,6 +186,8 @@ pub(super) struct MaterialSpec {
     #[serde(default)]
     pub(super) fresnel: bool,
     pub(super) internal_reflection: Option<bool>,
+    #[serde(default)]
+    pub(super) one_sided: bool,
     #[serde(default)]
     pub(super) emission: ColourSpec,
 }

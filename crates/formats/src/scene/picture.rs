@@ -6,7 +6,7 @@ use ombra_render::display::{Response, Transfer};
 use ombra_render::{MAX_DEPTH, MAX_SIDE, MAX_SPP, SamplerKind, Settings};
 use toml::Spanned;
 
-use super::build::{above_zero, wrong};
+use super::build::{above_zero, at_least_zero, wrong};
 use super::description::{FilmSpec, PictureSpec, SamplerSpec, TransferSpec};
 use super::line_of;
 use crate::error::FormatError;
@@ -110,13 +110,6 @@ fn response(spec: &FilmSpec) -> Result<Response, FormatError> {
             TransferSpec::Linear => Transfer::Linear,
         },
     })
-}
-
-fn at_least_zero(what: &str, number: f32) -> Result<f32, FormatError> {
-    if (0.0..=f32::MAX).contains(&number) {
-        return Ok(number);
-    }
-    Err(wrong(format!("{what} is {number}; 0 or more is needed")))
 }
 
 impl From<SamplerSpec> for SamplerKind {
