@@ -154,9 +154,9 @@ pub fn render(
             .quantity(world, camera, settings.response),
     };
     match settings.integrator {
-        IntegratorKind::Whitted => job.run(watch, |exposure| {
-            Whitted::new(world, exposure, settings.max_depth)
-        }),
+        IntegratorKind::Whitted => {
+            job.run(watch, |exposure| Whitted::new(world, exposure, settings))
+        }
         IntegratorKind::Raster => {
             let raster = cpu.install(|| Raster::new(world, camera, settings))?;
             job.rasterize(watch, &raster)

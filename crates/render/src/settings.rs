@@ -33,6 +33,10 @@ pub struct Settings {
     /// What is seen beyond the last bounce is the scene's to say, see
     /// [`Cutoff`](ombra_scene::Cutoff).
     pub max_depth: u32,
+    /// What share of a ray's light must arrive at its pixel for the ray to be worth tracing, 0 or more;
+    /// what is seen in place of the others is the scene's to say, as beyond the last bounce. Where
+    /// surfaces are both mirrors and glass, rays double with every bounce at 0.
+    pub least_importance: f32,
     /// Chooses the random numbers.
     pub seed: u64,
     /// Which part of the picture to render: the film becomes as large as that, and its pixels are
@@ -54,6 +58,7 @@ impl Default for Settings {
             height: 540,
             spp: 1,
             max_depth: 8,
+            least_importance: 1e-3,
             seed: 0,
             crop: None,
             integrator: IntegratorKind::default(),

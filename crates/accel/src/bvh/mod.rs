@@ -7,6 +7,7 @@
 
 mod build;
 mod collapse;
+mod lanes;
 mod layout;
 mod traverse;
 mod validate;

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use arrayvec::ArrayVec;
 
 use super::MAX_DEPTH;
+use super::lanes::Lanes;
 use super::layout::{Layout, Node, Siblings};
 use crate::{Span, TraversalRay, Visitor};
 
@@ -38,9 +39,9 @@ impl Layout {
             let siblings = &self.siblings[first as usize];
             visitor.node();
             visitor.node();
-            let Overlap { near, far } = slabs.overlap(siblings, t_max);
+            let Entries { near, entered } = slabs.entries(siblings, t_max);
             let child = |i: usize| (siblings.first[i], siblings.count[i]);
-            next = match (near[0] <= far[0], near[1] <= far[1]) {
+            next = match (entered[0], entered[1]) {
                 (false, false) => pop(&mut waiting, t_max),
                 (true, false) => Some(child(0)),
                 (false, true) => Some(child(1)),
@@ -123,9 +124,9 @@ impl Slabs {
         let unit = ray.ray.direction.max_norm();
         let origin = |o: f64| {
             let (above, below) = (rounded_up(o + pad), -rounded_up(pad - o));
-            Lanes([above, above, below, below])
+            Lanes::new([above, above, below, below])
         };
-        let inverse = |i: f64| Lanes([(unit * i).clamp(-LARGE, LARGE) as f32; 4]);
+        let inverse = |i: f64| Lanes::splat((unit * i).clamp(-LARGE, LARGE) as f32);
         let (from, way) = (ray.box_origin, ray.inverse_direction);
         Self {
             origin: [origin(from.x), origin(from.y), origin(from.z)],
@@ -142,72 +143,34 @@ impl Slabs {
         rounded_up((t_max - self.start) * self.unit)
     }
 
-    /// Where the ray is within each of two boxes.
-    ///
-    /// Not inlined: amid the walk the compiler takes the lanes apart again and tests number by
-    /// number, which takes nearly twice as many instructions (rustc 1.95, counted by callgrind).
-    #[inline(never)]
-    fn overlap(&self, siblings: &Siblings, t_max: f32) -> Overlap {
-        let (mut near, mut far) = (Lanes([self.t_min; 4]), Lanes([t_max; 4]));
+    /// Where the ray enters each of two boxes, and whether it does.
+    #[inline(always)]
+    fn entries(&self, siblings: &Siblings, t_max: f32) -> Entries {
+        let (mut near, mut far) = (Lanes::splat(self.t_min), Lanes::splat(t_max));
         for axis in 0..3 {
-            let planes = Lanes(siblings.planes[axis]);
-            let at = planes.zip(self.origin[axis], |plane, origin| plane - origin);
-            let at = at.zip(self.inverse[axis], |way, inverse| way * inverse);
-            let opposite = at.halves_swapped();
-            near = near.zip(at.zip(opposite, smaller), larger);
-            far = far.zip(at.zip(opposite, larger), smaller);
+            let way = Lanes::new(siblings.planes[axis]).minus(self.origin[axis]);
+            let at = way.times(self.inverse[axis]);
+            let opposite = at.last_two_first();
+            near = at.smaller(opposite).larger(near);
+            far = at.larger(opposite).smaller(far);
         }
-        let (Lanes([near_a, near_b, ..]), Lanes([far_a, far_b, ..])) = (near, far);
-        Overlap {
-            near: [near_a, near_b],
-            far: [far_a, far_b],
+        Entries {
+            near: near.first_two(),
+            entered: near.first_two_at_most(far),
         }
     }
 
     /// Whether the ray enters a box that has no sibling.
     fn enters(&self, node: &Node, t_max: f32) -> bool {
-        let Overlap { near, far } = self.overlap(&Siblings::new([*node; 2]), t_max);
-        near[0] <= far[0]
+        self.entries(&Siblings::new([*node; 2]), t_max).entered[0]
     }
 }
 
-/// Four numbers that go through the same operations, written so that the compiler makes single
-/// instructions of them.
+/// Where a ray enters each of two boxes, in units of τ', and whether it does so before it leaves.
 #[derive(Clone, Copy, Debug)]
-struct Lanes([f32; 4]);
-
-impl Lanes {
-    #[inline(always)]
-    fn zip(self, other: Self, of: impl Fn(f32, f32) -> f32) -> Self {
-        let (Self([a, b, c, d]), Self([e, f, g, h])) = (self, other);
-        Self([of(a, e), of(b, f), of(c, g), of(d, h)])
-    }
-
-    #[inline(always)]
-    fn halves_swapped(self) -> Self {
-        let Self([a, b, c, d]) = self;
-        Self([c, d, a, b])
-    }
-}
-
-/// Where a ray enters and leaves each of two boxes, in units of τ'; it is in one only if it enters
-/// no later than it leaves.
-#[derive(Clone, Copy, Debug)]
-struct Overlap {
+struct Entries {
     near: [f32; 2],
-    far: [f32; 2],
-}
-
-/// The smaller of two numbers that are not NaN: unlike `f32::min`, one instruction.
-#[inline]
-fn smaller(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers that are not NaN.
-#[inline]
-fn larger(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
+    entered: [bool; 2],
 }
 
 /// A single that is not below `x` and at most two steps above the smallest such one, or above 0 by
@@ -215,7 +178,12 @@ fn larger(a: f32, b: f32) -> f32 {
 #[inline]
 fn rounded_up(x: f64) -> f32 {
     // Minus infinity would meet its opposite below.
-    let nearest = larger(x as f32, f32::MIN);
+    let nearest = x as f32;
+    let nearest = if nearest > f32::MIN {
+        nearest
+    } else {
+        f32::MIN
+    };
     nearest + (nearest.abs() * f32::EPSILON + f32::MIN_POSITIVE)
 }
 

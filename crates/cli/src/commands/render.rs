@@ -268,22 +268,25 @@ pub(super) fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {
 }
 
 pub(super) fn settings(args: &RenderArgs, picture: Picture) -> Settings {
-    let of_scene = picture.size.map(|[width, height]| Size { width, height });
-    let Size { width, height } = args.size.or(of_scene).unwrap_or(SIZE);
-    let default = Settings::default();
+    let scenes = picture.settings(Settings {
+        width: SIZE.width,
+        height: SIZE.height,
+        spp: SPP,
+        ..Settings::default()
+    });
+    let Size { width, height } = args.size.unwrap_or(Size {
+        width: scenes.width,
+        height: scenes.height,
+    });
     Settings {
         width,
         height,
-        spp: args.spp.or(picture.spp).unwrap_or(SPP),
-        max_depth: args
-            .max_depth
-            .or(picture.max_depth)
-            .unwrap_or(default.max_depth),
+        spp: args.spp.unwrap_or(scenes.spp),
+        max_depth: args.max_depth.unwrap_or(scenes.max_depth),
         seed: args.seed,
         crop: args.crop,
         integrator: args.integrator,
-        sampler: picture.sampler.unwrap_or(default.sampler),
-        response: picture.response.unwrap_or(default.response),
+        ..scenes
     }
 }
 

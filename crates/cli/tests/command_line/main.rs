@@ -5,6 +5,7 @@ mod compared;
 mod explained;
 mod interrupted;
 mod lists;
+mod minray;
 mod pictures;
 
 use std::path::{Path, PathBuf};

@@ -36,6 +36,7 @@ pub(super) struct PictureSpec {
     pub(super) size: Option<Spanned<[u32; 2]>>,
     pub(super) spp: Option<Spanned<u32>>,
     pub(super) max_depth: Option<Spanned<u32>>,
+    pub(super) least_importance: Option<Spanned<f32>>,
     pub(super) sampler: Option<SamplerSpec>,
 }
 

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use ombra_render::display::{Response, Transfer};
-use ombra_render::{MAX_DEPTH, MAX_SIDE, MAX_SPP, SamplerKind};
+use ombra_render::{MAX_DEPTH, MAX_SIDE, MAX_SPP, SamplerKind, Settings};
 use toml::Spanned;
 
 use super::build::{above_zero, wrong};
@@ -20,10 +20,30 @@ pub struct Picture {
     pub spp: Option<u32>,
     /// How often light may bounce, at most [`MAX_DEPTH`].
     pub max_depth: Option<u32>,
+    /// See [`Settings::least_importance`].
+    pub least_importance: Option<f32>,
     /// How samples are spread.
     pub sampler: Option<SamplerKind>,
     /// How the film answers to light.
     pub response: Option<Response>,
+}
+
+impl Picture {
+    /// These settings, with what the scene wants in place of what they say.
+    #[must_use]
+    pub fn settings(&self, otherwise: Settings) -> Settings {
+        let [width, height] = self.size.unwrap_or([otherwise.width, otherwise.height]);
+        Settings {
+            width,
+            height,
+            spp: self.spp.unwrap_or(otherwise.spp),
+            max_depth: self.max_depth.unwrap_or(otherwise.max_depth),
+            least_importance: self.least_importance.unwrap_or(otherwise.least_importance),
+            sampler: self.sampler.unwrap_or(otherwise.sampler),
+            response: self.response.unwrap_or(otherwise.response),
+            ..otherwise
+        }
+    }
 }
 
 pub(super) fn picture(
@@ -61,6 +81,14 @@ pub(super) fn picture(
         size: spec.size.as_ref().map(Spanned::get_ref).copied(),
         spp: within(&spec.spp, 1..=MAX_SPP, "spp samples a pixel")?,
         max_depth: within(&spec.max_depth, 0..=MAX_DEPTH, "max_depth bounces")?,
+        least_importance: spec
+            .least_importance
+            .as_ref()
+            .map(|share| {
+                let wrong = |e: FormatError| e.at(place(share.span().start));
+                at_least_zero("least_importance", *share.get_ref()).map_err(wrong)
+            })
+            .transpose()?,
         sampler: spec.sampler.map(SamplerKind::from),
         response: film
             .map(|film| response(film.get_ref()).map_err(|e| e.at(place(film.span().start))))
@@ -70,22 +98,25 @@ pub(super) fn picture(
 
 fn response(spec: &FilmSpec) -> Result<Response, FormatError> {
     let default = Response::default();
-    let fog = spec.fog.unwrap_or(default.fog);
-    if !(0.0..=f32::MAX).contains(&fog) {
-        return Err(wrong(format!("fog is {fog}; 0 or more is needed")));
-    }
     Ok(Response {
         sensitivity: above_zero(
             "sensitivity",
             spec.sensitivity.unwrap_or(default.sensitivity),
         )?,
-        fog,
+        fog: at_least_zero("fog", spec.fog.unwrap_or(default.fog))?,
         white: above_zero("white", spec.white.unwrap_or(default.white))?,
         transfer: match spec.transfer {
             TransferSpec::Srgb => Transfer::Srgb,
             TransferSpec::Linear => Transfer::Linear,
         },
     })
+}
+
+fn at_least_zero(what: &str, number: f32) -> Result<f32, FormatError> {
+    if (0.0..=f32::MAX).contains(&number) {
+        return Ok(number);
+    }
+    Err(wrong(format!("{what} is {number}; 0 or more is needed")))
 }
 
 impl From<SamplerSpec> for SamplerKind {

@@ -157,7 +157,7 @@ impl<'a> Explainer<'a> {
         cpu: &Cpu,
         max_rays: usize,
     ) -> Result<SampleTree, ExplainError> {
-        let Settings { spp, max_depth, .. } = self.settings;
+        let spp = self.settings.spp;
         if index >= spp {
             return Err(ExplainError::NoSuchSample { sample: index, spp });
         }
@@ -166,7 +166,7 @@ impl<'a> Explainer<'a> {
         let (world, pixel, seen) = (self.world, &mut self.pixel, &recorder);
         match self.settings.integrator {
             IntegratorKind::Whitted => launch(
-                &Whitted::observed(world, exposure, max_depth, seen),
+                &Whitted::observed(world, exposure, &self.settings, seen),
                 pixel,
                 cpu,
                 seen,

@@ -34,9 +34,9 @@ pub(crate) struct ExplainArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     pub(crate) spp: u32,
 
-    /// How often light may be reflected or transmitted
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_DEPTH)))]
-    pub(crate) max_depth: u32,
+    /// How often light may be reflected or transmitted [default: what the scene file says, else 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_DEPTH)))]
+    pub(crate) max_depth: Option<u32>,
 
     /// Another seed gives other random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]

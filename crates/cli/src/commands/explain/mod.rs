@@ -149,16 +149,23 @@ impl Stage {
             findings,
             hash,
         } = ombra::load(&args.scene, &options)?;
-        let of_scene = picture.size.map(|[width, height]| Size { width, height });
-        let Size { width, height } = args.size.or(of_scene).unwrap_or(SIZE);
+        let scenes = picture.settings(Settings {
+            width: SIZE.width,
+            height: SIZE.height,
+            ..Settings::default()
+        });
+        let Size { width, height } = args.size.unwrap_or(Size {
+            width: scenes.width,
+            height: scenes.height,
+        });
         let settings = Settings {
             width,
             height,
             spp: choice.spp,
-            max_depth: choice.max_depth,
+            max_depth: choice.max_depth.unwrap_or(scenes.max_depth),
             seed: choice.seed,
             integrator: choice.integrator,
-            ..Settings::default()
+            ..scenes
         };
         let world = World::build(scene, choice.accel)?;
         let camera = ombra::camera(&world, settings.aspect());

@@ -19,7 +19,8 @@ pub(crate) struct Choice {
     pub(crate) accel: StructureKind,
     pub(crate) triangle_test: TriangleTest,
     pub(crate) integrator: IntegratorKind,
-    pub(crate) max_depth: u32,
+    /// What the scene wants, if nothing is said.
+    pub(crate) max_depth: Option<u32>,
     pub(crate) seed: u64,
     pub(crate) spp: u32,
 }
@@ -71,7 +72,9 @@ impl Choice {
                     value,
                 )?;
             }
-            "max-depth" => self.max_depth = whole(key, value, 0, MAX_DEPTH.into())? as u32,
+            "max-depth" => {
+                self.max_depth = Some(whole(key, value, 0, MAX_DEPTH.into())? as u32);
+            }
             "spp" => self.spp = whole(key, value, 1, MAX_SPP.into())? as u32,
             "seed" => self.seed = whole(key, value, 0, u64::MAX)?,
             _ => {

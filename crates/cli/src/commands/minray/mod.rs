@@ -57,15 +57,7 @@ fn short_name(builtin: &Builtin) -> &'static str {
 /// Renders a scene of the contest; `None` if it was interrupted.
 fn picture(contest: &Contest) -> anyhow::Result<Option<ContestPicture>> {
     let stop = interrupt::watch(true)?;
-    let wanted = contest.picture();
-    let default = Settings::default();
-    let settings = Settings {
-        width: contest.size,
-        height: contest.size,
-        spp: 1,
-        max_depth: wanted.max_depth.unwrap_or(default.max_depth),
-        ..default
-    };
+    let settings = contest.picture().settings(Settings::default());
     settings.validate()?;
     let world = World::build(contest.scene(), StructureKind::default())?;
     let camera = ombra::camera(&world, settings.aspect());

@@ -9,6 +9,7 @@ use ombra_geometry::{Hit, Ray};
 use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
 use ombra_scene::{Interaction, Material, Rgb, World};
 
+use crate::Settings;
 use crate::explain::{self, End, Event, Observer, Part, RayKind, Split};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
@@ -26,8 +27,8 @@ use shadow::{Shade, Shadow};
 /// - any other surface: its emission, if it has any, Phong's local term, what is seen in the mirror
 ///   direction, and what is seen through the surface, the last two by a ray with one step more.
 ///
-/// A ray of whose light less than a thousandth arrives at the pixel is taken to see what is seen
-/// beyond the last step, like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
+/// A ray of whose light less than a thousandth arrives at the pixel (unless the settings say
+/// otherwise) is taken to see what is seen beyond the last step, like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
 /// Computer Graphics and Applications 3(8), 1983. In glass every ray becomes two, so without this the
 /// number of rays doubles with every step. With it, where surfaces are grey and pass on no more light
 /// than arrives (reflection + transmission ≤ 1), the rays of one step have shares that add up to no
@@ -46,9 +47,6 @@ pub(crate) struct Whitted<'a, O = ()> {
     least_importance: f32,
     observer: O,
 }
-
-/// What a ray's light must count for in its pixel for the ray to be worth tracing.
-const LEAST_IMPORTANCE: f32 = 1e-3;
 
 /// The rays that bring light.
 enum Radiance {}
@@ -112,8 +110,8 @@ impl Traced {
 }
 
 impl<'a> Whitted<'a> {
-    pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>, max_depth: u32) -> Self {
-        Self::observed(world, exposure, max_depth, ())
+    pub(crate) const fn new(world: &'a World, exposure: Exposure<'a>, settings: &Settings) -> Self {
+        Self::observed(world, exposure, settings, ())
     }
 }
 
@@ -121,14 +119,14 @@ impl<'a, O> Whitted<'a, O> {
     pub(crate) const fn observed(
         world: &'a World,
         exposure: Exposure<'a>,
-        max_depth: u32,
+        settings: &Settings,
         observer: O,
     ) -> Self {
         Self {
             world,
             exposure,
-            max_depth,
-            least_importance: LEAST_IMPORTANCE,
+            max_depth: settings.max_depth,
+            least_importance: settings.least_importance,
             observer,
         }
     }

@@ -59,6 +59,7 @@ fn picture(max_depth: u32, least_importance: f32) -> (Vec<Rgb>, u64) {
         width: SIDE,
         height: SIDE,
         max_depth,
+        least_importance,
         ..Settings::default()
     };
     let cpu = Cpu::with_threads(1).unwrap();
@@ -76,10 +77,8 @@ fn picture(max_depth: u32, least_importance: f32) -> (Vec<Rgb>, u64) {
                 crop: Some(crop),
                 ..settings.clone()
             };
-            let program = Whitted {
-                least_importance,
-                ..Whitted::new(&world, Exposure::new(&camera, &settings, 0..1), max_depth)
-            };
+            let exposure = Exposure::new(&camera, &settings, 0..1);
+            let program = Whitted::new(&world, exposure, &settings);
             let mut pixel = [Pixel::default()];
             let report = cpu
                 .launch(&program, [1, 1, 1], &mut pixel, &Control::default())
@@ -95,7 +94,7 @@ fn picture(max_depth: u32, least_importance: f32) -> (Vec<Rgb>, u64) {
 fn rays_that_are_left_out_can_hardly_be_seen() {
     for (max_depth, bound) in [(8, 1.0 / 256.0), (12, 1.0 / 128.0)] {
         let (whole, all) = picture(max_depth, 0.0);
-        let (pruned, some) = picture(max_depth, LEAST_IMPORTANCE);
+        let (pruned, some) = picture(max_depth, Settings::default().least_importance);
         let difference = |(a, b): (&Rgb, &Rgb)| (a.r - b.r).abs();
         let worst = whole
             .iter()
@@ -111,7 +110,7 @@ fn rays_that_are_left_out_can_hardly_be_seen() {
 fn rays_in_glass_do_not_double_with_every_step() {
     // Without leaving any out a pixel takes more than 20 000 rays at 16 bounces.
     for max_depth in [16, 64, crate::MAX_DEPTH] {
-        let (_, most) = picture(max_depth, LEAST_IMPORTANCE);
+        let (_, most) = picture(max_depth, Settings::default().least_importance);
         assert!(most < 400, "{most} at {max_depth} bounces");
     }
 }
