@@ -34,7 +34,8 @@ pub struct Settings {
     /// [`Cutoff`](ombra_scene::Cutoff).
     pub max_depth: u32,
     /// What share of a ray's light must arrive at its pixel for the ray to be worth tracing, 0 or more;
-    /// what is seen in place of the others is the scene's to say, as beyond the last bounce. Where
+    /// what is seen in place of the others is the scene's to say, as beyond the last bounce. Lights
+    /// that all together would bring less are not asked for. Where
     /// surfaces are both mirrors and glass, rays double with every bounce at 0.
     pub least_importance: f32,
     /// Chooses the random numbers.

@@ -168,6 +168,8 @@ pub enum LightWay {
     Behind,
     /// No: the surface would scatter nothing of it toward the viewer.
     NothingScattered,
+    /// No: too little of it would arrive at the pixel.
+    Unimportant,
 }
 
 /// How a transparent surface divides what arrives at it.

@@ -276,5 +276,6 @@ fn light_way(way: LightWay) -> &'static str {
         LightWay::OutOfReach => "out of reach",
         LightWay::Behind => "behind the surface",
         LightWay::NothingScattered => "nothing scattered",
+        LightWay::Unimportant => "unimportant",
     }
 }

@@ -11,7 +11,8 @@ use crate::sampler::Dimension;
 use crate::shading::{self, Side};
 
 impl<O: Observer> Whitted<'_, O> {
-    /// The ambient part, and what is scattered of each light that is not in the shade.
+    /// The ambient part, and what is scattered of each light that is not in the shade. Lights of which
+    /// all together less would arrive at the pixel than makes a ray worth tracing are not asked.
     pub(super) fn local(
         &self,
         cx: &mut Context<'_, Self>,
@@ -27,6 +28,9 @@ impl<O: Observer> Whitted<'_, O> {
         if diffuse.is_black() && material.specular.is_black() {
             return Ok(radiance);
         }
+        // What all lights together may bring without being asked for.
+        let least = self.least_importance / (traced.importance * scene.lights.len() as f32);
+        let least = least.max(f32::MIN_POSITIVE);
         for (index, light) in scene.lights.iter().enumerate() {
             let xi = || traced.pair(Dimension::Light, index);
             let Some(light) = light.sample_li(place.point, xi) else {
@@ -34,7 +38,8 @@ impl<O: Observer> Whitted<'_, O> {
                 continue;
             };
             let scattered = shading::scattered(material, diffuse, side, place.wo, &light);
-            if !scattered.is_black() {
+            let matters = scattered.max_component() >= least;
+            if matters {
                 radiance += scattered * self.unshadowed(cx, place, index, &light, scattered)?;
             }
             self.observer.tell(|| {
@@ -46,7 +51,11 @@ impl<O: Observer> Whitted<'_, O> {
                     light: index,
                     diffuse,
                     specular,
-                    way: scattered.is_black().then_some(LightWay::NothingScattered),
+                    way: (!matters).then_some(if scattered.is_black() {
+                        LightWay::NothingScattered
+                    } else {
+                        LightWay::Unimportant
+                    }),
                 }
             });
         }
