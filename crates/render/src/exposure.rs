@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ombra_geometry::Ray;
 use ombra_pipeline::Exception;
-use ombra_scene::camera::{CameraSample, Projection};
+use ombra_scene::camera::{CameraRays, CameraSample, Projection};
 use ombra_scene::{Camera, Rgb};
 
 use crate::film::{Crop, Pixel};
@@ -14,9 +14,8 @@ use crate::{SamplerKind, Settings};
 /// One pass over a film: which samples of its pixels to take, and along which rays.
 #[derive(Clone, Debug)]
 pub(crate) struct Exposure<'a> {
-    camera: &'a Camera,
+    rays: CameraRays<'a>,
     picture: [u32; 2],
-    aspect: f32,
     crop: Crop,
     sampler: SamplerKind,
     seed: u64,
@@ -30,9 +29,8 @@ impl<'a> Exposure<'a> {
     /// The samples of a pass; `settings` are valid.
     pub(crate) fn new(camera: &'a Camera, settings: &Settings, samples: Range<u32>) -> Self {
         Self {
-            camera,
+            rays: camera.rays(settings.aspect()),
             picture: [settings.width, settings.height],
-            aspect: settings.aspect(),
             crop: settings.extent(),
             sampler: settings.sampler,
             seed: settings.seed,
@@ -114,7 +112,7 @@ impl<'a> Exposure<'a> {
             [0.5; 2]
         };
         let screen = [x / self.picture[0] as f32, y / self.picture[1] as f32];
-        self.camera.ray(self.aspect, CameraSample { screen, lens })
+        self.rays.ray(CameraSample { screen, lens })
     }
 }
 

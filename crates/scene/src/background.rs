@@ -40,9 +40,20 @@ impl Background {
                 exponent,
             } => {
                 let height = direction.dot(*up) / direction.length();
-                zenith.lerp(*horizon, (1.0 - height.clamp(0.0, 1.0)).powf(*exponent))
+                zenith.lerp(*horizon, power(1.0 - height.clamp(0.0, 1.0), *exponent))
             }
         }
+    }
+}
+
+/// A power; of a small whole exponent in a few multiplications.
+#[inline]
+fn power(base: f32, exponent: f32) -> f32 {
+    let whole = exponent as i32;
+    if (0..=8).contains(&whole) && whole as f32 == exponent {
+        base.powi(whole)
+    } else {
+        base.powf(exponent)
     }
 }
 

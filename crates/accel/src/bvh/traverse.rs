@@ -6,7 +6,7 @@ use arrayvec::ArrayVec;
 
 use super::MAX_DEPTH;
 use super::lanes::Lanes;
-use super::layout::{Layout, Node, Siblings};
+use super::layout::{Layout, Siblings};
 use crate::{Span, TraversalRay, Visitor};
 
 impl Layout {
@@ -21,10 +21,8 @@ impl Layout {
         };
         let slabs = Slabs::new(ray);
         let mut t_max = slabs.limit(visitor.t_max());
+        // The box of the root is not tested: those of its children are, and together they are as large.
         visitor.node();
-        if !slabs.enters(root, t_max) {
-            return ControlFlow::Continue(());
-        }
         // One node may wait at each level.
         let mut waiting = ArrayVec::<Waiting, MAX_DEPTH>::new();
         let mut next = Some((root.first, root.count));
@@ -85,7 +83,7 @@ fn pop(waiting: &mut ArrayVec<Waiting, MAX_DEPTH>, t_max: f32) -> Option<(u32, u
 /// # Why it is conservative
 /// 1. Padding a box by p is the same as moving the origin towards each plane by p: the walk's origin
 ///    (see `traversal_ray.rs`) is moved up by `single_box_pad` for the lower planes and down for the
-///    upper ones, and then rounded to single precision outward, by two steps at most.
+///    upper ones, and rounded to single precision with as much more of a pad as that takes.
 /// 2. Everything is in units of the direction's largest component m: τ' = (t − `box_start`) · m. So
 ///    the reciprocals of the direction are at least 1, and for a hit that counts |τ'| is at most R,
 ///    the distance from the walk's origin to the far side of the structure, padded. One rounding of
@@ -120,10 +118,24 @@ const LEAST_PAD: f64 = 8.0e-45;
 
 impl Slabs {
     fn new(ray: &TraversalRay) -> Self {
-        let pad = ray.single_box_pad.max(LEAST_PAD);
         let unit = ray.ray.direction.max_norm();
+        let largest = ray.box_origin.to_vector().max_norm();
+        // Rounding the origin, and adding the pad to it, moves it by one step of singles at most.
+        let step = f64::from(f32::EPSILON) * (largest + ray.single_box_pad);
+        let pad = rounded_up(ray.single_box_pad.max(LEAST_PAD) + step);
         let origin = |o: f64| {
-            let (above, below) = (rounded_up(o + pad), -rounded_up(pad - o));
+            // Beyond the largest single the origin is moved no further inward than to it.
+            let nearest = o as f32;
+            let above = if nearest > f32::MIN {
+                nearest
+            } else {
+                f32::MIN
+            } + pad;
+            let below = if nearest < f32::MAX {
+                nearest
+            } else {
+                f32::MAX
+            } - pad;
             Lanes::new([above, above, below, below])
         };
         let inverse = |i: f64| Lanes::splat((unit * i).clamp(-LARGE, LARGE) as f32);
@@ -158,11 +170,6 @@ impl Slabs {
             near: near.first_two(),
             entered: near.first_two_at_most(far),
         }
-    }
-
-    /// Whether the ray enters a box that has no sibling.
-    fn enters(&self, node: &Node, t_max: f32) -> bool {
-        self.entries(&Siblings::new([*node; 2]), t_max).entered[0]
     }
 }
 

@@ -67,17 +67,22 @@ impl Camera {
     #[must_use]
     #[inline]
     pub fn ray(&self, aspect: f32, sample: CameraSample) -> Ray {
-        let (origin, direction) = match &self.projection {
-            Projection::Perspective(p) => p.local_ray(aspect, sample.screen),
-            Projection::ThinLens(p) => p.local_ray(aspect, sample),
-            Projection::Orthographic(p) => p.local_ray(aspect, sample.screen),
-            Projection::Panorama(p) => p.local_ray(sample.screen),
+        self.rays(aspect).ray(sample)
+    }
+
+    /// The same for many places in one picture: what they share is worked out once.
+    #[must_use]
+    pub fn rays(&self, aspect: f32) -> CameraRays<'_> {
+        let fov = match &self.projection {
+            Projection::Perspective(p) => p.fov,
+            Projection::ThinLens(p) => p.fov,
+            Projection::Orthographic(_) | Projection::Panorama(_) => Angle::from_radians(0.0),
         };
-        let direction = self.pose.world_from_camera(direction);
-        Ray::new(
-            self.pose.position() + self.pose.world_from_camera(origin.to_vector()),
-            direction.normalized().unwrap_or(direction),
-        )
+        CameraRays {
+            camera: self,
+            aspect,
+            half: (fov * 0.5).tan(),
+        }
     }
 
     /// What is on the right and what faces the viewer of a model whose unit vector `up` points up:
@@ -117,6 +122,39 @@ impl Camera {
             pose,
             projection: Projection::Perspective(Perspective::new(fov)),
         }
+    }
+}
+
+/// The rays of one picture.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraRays<'a> {
+    camera: &'a Camera,
+    aspect: f32,
+    /// The tangent of half the angle of view, if there is one.
+    half: f32,
+}
+
+impl CameraRays<'_> {
+    /// The ray of a place in the picture; its direction has unit length.
+    #[must_use]
+    #[inline]
+    pub fn ray(&self, sample: CameraSample) -> Ray {
+        let Self {
+            camera: Camera { pose, projection },
+            aspect,
+            half,
+        } = *self;
+        let (origin, direction) = match projection {
+            Projection::Perspective(p) => p.local_ray(half, aspect, sample.screen),
+            Projection::ThinLens(p) => p.local_ray(half, aspect, sample),
+            Projection::Orthographic(p) => p.local_ray(aspect, sample.screen),
+            Projection::Panorama(p) => p.local_ray(sample.screen),
+        };
+        let direction = pose.world_from_camera(direction);
+        Ray::new(
+            pose.position() + pose.world_from_camera(origin.to_vector()),
+            direction.normalized().unwrap_or(direction),
+        )
     }
 }
 

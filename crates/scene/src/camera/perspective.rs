@@ -27,19 +27,24 @@ impl Perspective {
     }
 
     #[inline]
-    pub(super) fn local_ray(&self, aspect: f32, [px, py]: [f32; 2]) -> (Point3, Vector3) {
+    pub(super) fn local_ray(
+        &self,
+        half: f32,
+        aspect: f32,
+        [px, py]: [f32; 2],
+    ) -> (Point3, Vector3) {
         let [dx, dy] = self.shift;
         (
             Point3::ORIGIN,
-            image_point(self.fov, aspect, [px + dx, py + dy]),
+            image_point(half, aspect, [px + dx, py + dy]),
         )
     }
 }
 
-/// Where the ray of a place in the picture meets the plane z = −1.
+/// Where the ray of a place in the picture meets the plane z = −1; `half` is the tangent of half the
+/// angle.
 #[inline]
-pub(super) fn image_point(fov: Angle, aspect: f32, [px, py]: [f32; 2]) -> Vector3 {
-    let half = (fov * 0.5).tan();
+pub(super) fn image_point(half: f32, aspect: f32, [px, py]: [f32; 2]) -> Vector3 {
     Vector3::new(
         (2.0 * px - 1.0) * aspect * half,
         (1.0 - 2.0 * py) * half,
@@ -54,7 +59,7 @@ mod tests {
     #[test]
     fn the_corners_are_where_the_lecture_has_them() {
         let camera = Perspective::new(Angle::from_degrees(90.0));
-        let at = |screen| camera.local_ray(2.0, screen).1;
+        let at = |screen| camera.local_ray(1.0, 2.0, screen).1;
         assert_eq!(at([0.5, 0.5]), -Vector3::Z);
         let close = |a: Vector3, b: Vector3| (a - b).length() < 1e-6;
         assert!(close(at([0.0, 0.0]), Vector3::new(-2.0, 1.0, -1.0)));
@@ -67,8 +72,8 @@ mod tests {
             shift: [0.0, 0.5],
             ..Perspective::new(Angle::from_degrees(90.0))
         };
-        assert_eq!(camera.local_ray(1.0, [0.5, 0.0]).1, -Vector3::Z);
-        let lowest = camera.local_ray(1.0, [0.5, 1.0]).1;
+        assert_eq!(camera.local_ray(1.0, 1.0, [0.5, 0.0]).1, -Vector3::Z);
+        let lowest = camera.local_ray(1.0, 1.0, [0.5, 1.0]).1;
         assert!((lowest - Vector3::new(0.0, -2.0, -1.0)).length() < 1e-6);
     }
 }

@@ -33,7 +33,12 @@ pub enum Aperture {
 
 impl ThinLens {
     #[inline]
-    pub(super) fn local_ray(&self, aspect: f32, sample: CameraSample) -> (Point3, Vector3) {
+    pub(super) fn local_ray(
+        &self,
+        half: f32,
+        aspect: f32,
+        sample: CameraSample,
+    ) -> (Point3, Vector3) {
         let [x, y] = match self.aperture {
             Aperture::Disk => concentric_disk(sample.lens),
             Aperture::Square => sample.lens.map(|x| 2.0 * x - 1.0),
@@ -41,7 +46,7 @@ impl ThinLens {
         let on_lens = Vector3::new(x, y, 0.0) * self.lens_radius;
         let [px, py] = sample.screen;
         let [dx, dy] = self.shift;
-        let in_focus = image_point(self.fov, aspect, [px + dx, py + dy]) * self.focus_distance;
+        let in_focus = image_point(half, aspect, [px + dx, py + dy]) * self.focus_distance;
         (Point3::ORIGIN + on_lens, in_focus - on_lens)
     }
 }
@@ -77,7 +82,7 @@ mod tests {
         };
         let meet = |lens| {
             let screen = [0.2, 0.7];
-            let (origin, direction) = camera.local_ray(1.5, CameraSample { screen, lens });
+            let (origin, direction) = camera.local_ray(0.5, 1.5, CameraSample { screen, lens });
             origin + direction
         };
         let middle = meet([0.5, 0.5]);

@@ -40,7 +40,8 @@ impl Texture {
         match self {
             Self::Constant(colour) => *colour,
             Self::Checker { colours, size } => {
-                let odd = |x: f32| (x / size).floor().rem_euclid(2.0) == 1.0;
+                // Beyond what an integer holds singles are even.
+                let odd = |x: f32| (x / size).floor() as i64 & 1 == 1;
                 colours[usize::from(odd(point.x) != odd(point.z))]
             }
             Self::Picture(picture) => picture.at(uv),
