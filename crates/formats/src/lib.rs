@@ -48,4 +48,4 @@ pub use image::{
 pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use limits::Limits;
 pub use mesh::{Model, ModelFormat, Part, read_model, with_normals};
-pub use whole::write_whole;
+pub use whole::{can_write_whole, write_whole};
