@@ -195,7 +195,7 @@ fn what_glass_absorbs_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let scene = data.join("render/gltf/AttenuationTest/16_volume.gltf");
     let scene = scene.to_str().unwrap();
-    let options = ["--size", "320x240", "--pixel", "100,100", "--spp", "1"];
+    let options = ["--size", "320x240", "--pixel", "200,120", "--spp", "1"];
     let explained = |more: &[&str]| {
         let arguments = [&["explain", scene], &options[..], more].concat();
         succeed(folder.path(), &arguments)

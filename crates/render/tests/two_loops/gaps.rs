@@ -102,7 +102,7 @@ fn of_a_round_thing_with_one_side_the_far_half_is_not_there() {
     let shapes = || {
         vec![
             of(Sphere::new(point(0.5, 0.2, 1.0), 0.8)),
-            of(tube.clone().unwrap()),
+            of(tube.unwrap()),
         ]
     };
     let round = before_a_ball(shapes(), &one_sided(), AS_IT_IS);
