@@ -52,4 +52,4 @@ pub use info::{FileInfo, MaterialInfo, ModelInfo, SceneInfo, inspect};
 pub use input::Assets;
 pub use limits::Limits;
 pub use mesh::{Model, ModelFormat, Part, read_model, read_model_bytes, with_normals};
-pub use whole::write_whole;
+pub use whole::{can_write_whole, write_whole};

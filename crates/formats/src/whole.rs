@@ -24,6 +24,16 @@ pub fn write_whole(path: impl AsRef<Path>, content: &[u8]) -> Result<(), FormatE
     write().map_err(|e| e.in_file(path))
 }
 
+/// Whether [`write_whole`] could write there now, for whoever has long to work before it does. Nothing
+/// is left behind.
+///
+/// # Errors
+/// As for [`write_whole`].
+pub fn can_write_whole(path: impl AsRef<Path>) -> Result<(), FormatError> {
+    let path = path.as_ref();
+    file_beside(path).map(drop).map_err(|e| e.in_file(path))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -37,7 +47,14 @@ mod tests {
         assert_eq!(std::fs::read(&path).unwrap(), b"two");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 
+        assert!(can_write_whole(&path).is_ok());
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+
         let missing = folder.path().join("no/such.txt");
+        let error = can_write_whole(&missing).unwrap_err().to_string();
+        assert!(error.contains("does not exist"), "{error}");
+        assert!(can_write_whole(folder.path()).is_err());
         let error = write_whole(missing, b"").unwrap_err().to_string();
         assert!(error.contains("does not exist"), "{error}");
         assert!(write_whole(folder.path(), b"").is_err());

@@ -105,7 +105,14 @@ impl<'a> Exposure<'a> {
     /// The ray of a sample of a pixel.
     #[inline]
     pub(crate) fn ray(&self, pixel: [u32; 2], sample: &Sample) -> Ray {
+        self.ray_beside(pixel, sample, [0.0; 2])
+    }
+
+    /// The ray beside that of a sample of a pixel, so many pixels to the right and down.
+    #[inline]
+    pub(crate) fn ray_beside(&self, pixel: [u32; 2], sample: &Sample, [dx, dy]: [f32; 2]) -> Ray {
         let [x, y] = in_picture(pixel, sample);
+        let [x, y] = [x + dx, y + dy];
         let lens = if self.has_lens {
             sample.pair(Dimension::Lens)
         } else {

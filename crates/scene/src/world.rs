@@ -84,6 +84,17 @@ impl World {
         &self.scene.materials[self.scene.objects[hit.instance.index()].material.index()]
     }
 
+    /// Whether what a ray meets is there: not a back face of a material with one side, and not in a
+    /// hole of one. Searches ask this themselves; whoever finds what is seen without a ray has to.
+    ///
+    /// # Panics
+    /// When the candidate is not of this world.
+    #[must_use]
+    #[inline]
+    pub fn is_there(&self, ray: &Ray<f64>, candidate: &Candidate) -> bool {
+        !self.has_gaps || presence::is_there(&self.scene, ray, candidate)
+    }
+
     /// Makes a place of a hit.
     ///
     /// # Panics
@@ -153,7 +164,7 @@ impl Traversable for World {
             return self.accel.search(ray, rule, statistics, any_hit);
         }
         let mut of_what_is_there = |candidate: &Candidate| {
-            if presence::is_there(&self.scene, ray, candidate) {
+            if self.is_there(ray, candidate) {
                 any_hit(candidate)
             } else {
                 AnyHit::Ignore

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::{fail, run, succeed};
+use crate::{fail, outside_data, run, succeed};
 
 const SMALL: [&str; 2] = ["--size", "60x40"];
 
@@ -168,6 +168,55 @@ fn entities(text: &str) {
         let known = ["amp;", "lt;", "gt;", "quot;"];
         assert!(known.iter().any(|name| after.starts_with(name)), "&{after}");
     }
+}
+
+#[test]
+fn where_to_write_is_looked_at_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    for option in ["--svg", "--glb"] {
+        let missing = ["explain", "whitted", "--pixel", "18,22", option, "no/such"];
+        let output = run(folder.path(), &[&missing[..], &SMALL].concat());
+        assert_eq!(output.status.code(), Some(1), "{option}");
+        assert!(output.stdout.is_empty(), "{option}: no tree was made");
+        let talk = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            talk.contains("does not exist") && talk.lines().count() == 1,
+            "{talk}"
+        );
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn what_glass_absorbs_is_told() {
+    let Some(data) = outside_data() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let scene = data.join("render/gltf/AttenuationTest/16_volume.gltf");
+    let scene = scene.to_str().unwrap();
+    let options = ["--size", "320x240", "--pixel", "200,120", "--spp", "1"];
+    let explained = |more: &[&str]| {
+        let arguments = [&["explain", scene], &options[..], more].concat();
+        succeed(folder.path(), &arguments)
+    };
+    let text = explained(&[]);
+    assert!(text.contains("absorbed  over a way of "), "{text}");
+    let tree: Value = serde_json::from_str(&explained(&["--json"])).unwrap();
+    let rays = tree["samples"][0]["rays"].as_array().unwrap();
+    let absorbed = rays.iter().filter(|ray| !ray["absorbed"].is_null());
+    let mut count = 0;
+    for ray in absorbed {
+        assert_eq!(ray["met"]["side"], "back", "{ray}");
+        // A direction has unit length but for rounding.
+        let [way, t] = [&ray["absorbed"]["way"], &ray["met"]["t"]];
+        let [way, t] = [way, t].map(|x| x.as_f64().unwrap());
+        assert!((way / t - 1.0).abs() < 1e-6, "{way}, {t}");
+        let left = colour(&ray["absorbed"]["left"]);
+        assert!(left.iter().all(|x| (0.0..1.0).contains(x)), "{left:?}");
+        count += 1;
+    }
+    assert!(count > 0);
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub(crate) use rays::LocalLight;
 pub use visibility::VisibilityAgreement;
 
 use crate::exposure::Exposure;
-use crate::raster::Raster;
+use crate::raster::{Raster, Seen};
 use crate::render::{render, render_local};
 use crate::{IntegratorKind, RenderError, Rendering, Settings, Watch};
 
@@ -138,6 +138,11 @@ pub fn visibility(
         let raster = Raster::new(world, camera, settings)?;
         let (drawn, _) = raster.seen(&exposure, 0);
         let (traced, _) = rays::seen(world, camera, &extent, &exposure, 0);
-        Ok(VisibilityAgreement::of(&traced, &drawn, &extent))
+        let is_beside = |pixel: [u32; 2], drawn: &Option<Seen>| {
+            rays::see_beside(world, &exposure, pixel, 0, drawn)
+        };
+        Ok(VisibilityAgreement::of(
+            &traced, &drawn, &extent, &is_beside,
+        ))
     })
 }

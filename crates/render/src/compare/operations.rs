@@ -16,8 +16,8 @@ const MOST_TRIANGLES: u64 = 1 << 19;
 /// What it took to find what is seen at one sample of each pixel, by either loop.
 ///
 /// Without any help both test every primitive with every pixel, in one order or the other. What
-/// helps the rasterizer is the box around each primitive in the picture; what helps rays is the
-/// acceleration structure.
+/// helps the rasterizer is that it looks, row by row, between the edges of each primitive alone; what
+/// helps rays is the acceleration structure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
     /// Columns and rows.
@@ -35,7 +35,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// How many coverage tests the rasterizer makes without boxes.
+    /// How many coverage tests the rasterizer makes if it tests every pixel for every primitive.
     #[must_use]
     pub const fn all_coverage_tests(&self) -> u64 {
         self.drawn.saturating_mul(self.pixels)

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use crate::Crop;
 use crate::exposure::Exposure;
 use crate::film::Pixel;
-use crate::raster::Seen;
 use crate::raster::shade::local;
+use crate::raster::{Seen, TOLERANCE};
 use crate::sampler::Sample;
 
 /// What the ray of one sample of each pixel meets first, row by row from the top, and what it took to
@@ -43,6 +43,30 @@ pub(super) fn seen(
     });
     let statistics = statistics.sum();
     (seen, statistics)
+}
+
+/// How far beside a sample rays look for what was drawn there, in pixels: up to what triangles may be
+/// off from a curved shape, and so near that they meet the thinnest of slivers.
+const BESIDE: [f32; 3] = [TOLERANCE as f32, 1.0 / 256.0, 1.0 / 4096.0];
+
+/// Whether a ray beside that of a sample sees what was drawn there.
+pub(super) fn see_beside(
+    world: &World,
+    exposure: &Exposure<'_>,
+    pixel: [u32; 2],
+    sample: u32,
+    drawn: &Option<Seen>,
+) -> bool {
+    let sample = exposure.sample(pixel, sample);
+    let wanted = drawn.map(|drawn| (drawn.instance, drawn.primitive));
+    BESIDE.iter().any(|&distance| {
+        (0..8).any(|eighth: u8| {
+            let (sin, cos) = (f32::from(eighth) * std::f32::consts::FRAC_PI_4).sin_cos();
+            let ray = exposure.ray_beside(pixel, &sample, [distance * cos, distance * sin]);
+            let hit = world.intersect(&ray);
+            hit.map(|hit| (hit.instance, hit.primitive)) == wanted
+        })
+    })
 }
 
 /// Local shading of what rays meet, as the rasterizer shades what it draws: no shadow rays, no

@@ -20,8 +20,8 @@ pub(crate) use observer::{Event, Observer, trace};
 pub use recorder::MAX_RAYS;
 use recorder::Recorder;
 pub use tree::{
-    Crossing, End, LightPart, LightWay, Part, PixelTree, Place, RayKind, SampleTree, Split,
-    TracedRay,
+    Absorbed, Crossing, End, LightPart, LightWay, Part, PixelTree, Place, RayKind, SampleTree,
+    Split, TracedRay,
 };
 
 /// Why there is no tree.

@@ -5,7 +5,7 @@ use ombra_geometry::{Hit, Ray};
 use ombra_pipeline::{Context, Exception, RayProgram, RayType};
 use ombra_scene::{Interaction, Rgb};
 
-use super::tree::{End, LightWay, Part, Place, RayKind, Split};
+use super::tree::{Absorbed, End, LightWay, Part, Place, RayKind, Split};
 
 /// Is told what the ray programs of an integrator do while they do it.
 ///
@@ -51,6 +51,8 @@ pub(crate) enum Event {
         specular: Rgb,
         way: Option<LightWay>,
     },
+    /// All that it brings loses this on the way; told before its children are wanted.
+    Absorbs(Absorbed),
     /// The surface is transparent.
     Splits(Split),
     /// Why the tree goes on or ends here; if nobody says, that depends on whether a place was met.

@@ -92,11 +92,14 @@ impl Tree {
                 step: above.map_or(0, |above| above.step + deeper),
                 ray,
                 weight,
-                weight_in_pixel: above.map_or(camera_weight, |above| above.weight_in_pixel)
-                    * weight,
+                weight_in_pixel: above.map_or(camera_weight, |above| {
+                    let left = above.absorbed.map_or(Rgb::WHITE, |absorbed| absorbed.left);
+                    above.weight_in_pixel * left
+                }) * weight,
                 met: None,
                 crossed: Vec::new(),
                 parts: Vec::new(),
+                absorbed: None,
                 split: None,
                 end: End::Background,
                 radiance: Rgb::BLACK,
@@ -132,6 +135,7 @@ impl Tree {
                 specular,
                 way: way.unwrap_or(LightWay::Ray(last)),
             })),
+            Event::Absorbs(absorbed) => ray.absorbed = Some(absorbed),
             Event::Splits(split) => ray.split = Some(split),
             Event::Ends(end) => ray.end = end,
             Event::Done(radiance) => {

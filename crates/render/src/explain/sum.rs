@@ -7,7 +7,7 @@ use super::tree::{End, LightWay, Part, SampleTree};
 impl SampleTree {
     /// What a ray brings according to its parts and its children, in the order in which it was added
     /// up: its emission, plus the ambient part with the light of each light, plus what is seen through
-    /// the surface and then in the mirror. To the last bit its `radiance`, unless that was not made of
+    /// the surface and then in the mirror, and of all that what the way left. To the last bit its `radiance`, unless that was not made of
     /// parts: the background, what is seen beyond the last bounce, and how much of a light gets
     /// through.
     ///
@@ -43,7 +43,11 @@ impl SampleTree {
                 bounced += self.brings(child);
             }
         }
-        emission + local + bounced
+        let sum = emission + local + bounced;
+        match record.absorbed {
+            Some(absorbed) => sum * absorbed.left,
+            None => sum,
+        }
     }
 
     /// What a ray brings to the one that sent it.

@@ -42,8 +42,8 @@ pub struct TracedRay {
     pub ray: Ray,
     /// The share with which `radiance` counts in that of its parent, per colour.
     pub weight: Rgb,
-    /// The same for the pixel: the product of the weights from the camera ray to here, over the
-    /// number of samples.
+    /// The same for the pixel: the product of the weights from the camera ray to here and of what is
+    /// left on the ways between, over the number of samples.
     pub weight_in_pixel: Rgb,
     /// What it met first. None for a ray that was not sent, that met nothing, or that only asks what
     /// is in the way, see `crossed`.
@@ -54,6 +54,8 @@ pub struct TracedRay {
     /// What it is made of besides the light of reflected and transmitted rays, in the order in which
     /// it is added.
     pub parts: Vec<Part>,
+    /// What the way here takes of all of that, if it leads through something that absorbs light.
+    pub absorbed: Option<Absorbed>,
     /// How a transparent surface divides the light.
     pub split: Option<Split>,
     /// Why the tree goes on or ends here.
@@ -170,6 +172,16 @@ pub enum LightWay {
     NothingScattered,
     /// No: too little of it would arrive at the pixel.
     Unimportant,
+}
+
+/// What light loses on the way behind a surface: Beer's law, see
+/// [`Material::left_after`](ombra_scene::Material::left_after).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Absorbed {
+    /// The length of the way, in units of the scene.
+    pub way: f32,
+    /// The share that is left at its end, per colour, 0 to 1.
+    pub left: Rgb,
 }
 
 /// How a transparent surface divides what arrives at it.

@@ -1,9 +1,9 @@
 //! The lecture's loop: for each primitive, for each pixel.
 
-use super::bands::{Bands, Drawn, ROWS};
+use super::bands::{Bands, Drawn, Item, ROWS};
 use super::facet::Fragment;
+use super::presence::PresenceTest;
 use super::source::Source;
-use super::view::View;
 use crate::Crop;
 use crate::exposure::Exposure;
 
@@ -72,36 +72,46 @@ impl Band {
         bands: &Bands,
         index: usize,
         sources: &[Source<'_>],
-        view: &View,
-        exposure: &Exposure<'_>,
-        sample: u32,
+        test: &PresenceTest<'_>,
     ) -> Tally {
+        let exposure = test.exposure;
         let width = self.cells.width() as usize;
         for (i, place) in self.places.iter_mut().enumerate() {
             let (x, y) = (i % width, i / width);
             let pixel = [self.cells.x0 + x as u32, self.cells.y0 + y as u32];
-            *place = Exposure::place(pixel, &exposure.sample(pixel, sample));
+            *place = Exposure::place(pixel, &exposure.sample(pixel, test.sample));
         }
         self.depths.fill(f64::INFINITY);
         self.nearest.fill(None);
         let mut tally = Tally::default();
-        for &item in bands.of(index) {
-            let source = &sources[bands.item(item).object as usize];
-            if let Some(drawn) = Drawn::new(bands.item(item), source, view) {
-                self.primitive(item, &drawn, exposure.is_centred(), &mut tally);
+        for &index in bands.of(index) {
+            let item = bands.item(index);
+            let source = &sources[item.object as usize];
+            if let Some(drawn) = Drawn::new(item, source, test.view) {
+                let gaps = (!test.is_whole(item)).then_some((test, item));
+                self.primitive(index, &drawn, exposure.is_centred(), gaps, &mut tally);
             }
         }
         tally
     }
 
-    /// One primitive, all pixels that it may cover.
-    fn primitive(&mut self, item: u32, drawn: &Drawn, centred: bool, tally: &mut Tally) {
+    /// One primitive, all pixels that it may cover. Where it may have gaps, each fragment is asked
+    /// for before its depth counts.
+    fn primitive(
+        &mut self,
+        item: u32,
+        drawn: &Drawn,
+        centred: bool,
+        gaps: Option<(&PresenceTest<'_>, &Item)>,
+        tally: &mut Tally,
+    ) {
         let cells = drawn.cells(&self.cells, centred);
-        tally.coverage_tests += cells.count();
         let width = self.cells.width() as usize;
-        for y in cells.rows {
+        for y in cells.rows.clone() {
             let row = (y - self.cells.y0) as usize * width;
-            for x in cells.columns.clone() {
+            let columns = drawn.columns(y, &cells, centred);
+            tally.coverage_tests += columns.len() as u64;
+            for x in columns {
                 let i = row + (x - self.cells.x0) as usize;
                 let place = self.places[i];
                 let fragment = match drawn {
@@ -117,7 +127,9 @@ impl Band {
                 };
                 tally.covered += 1;
                 // Of equally near ones the first counts, as with rays: items come in that order.
-                if fragment.depth < self.depths[i] {
+                if fragment.depth < self.depths[i]
+                    && gaps.is_none_or(|(test, item)| test.is_there(item, [x, y], &fragment))
+                {
                     tally.nearest += 1;
                     self.depths[i] = fragment.depth;
                     self.nearest[i] = Some(Nearest { item, fragment });

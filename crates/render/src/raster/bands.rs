@@ -1,5 +1,7 @@
 //! Who is drawn where: what may cover a pixel of a band of rows.
 
+use std::ops::Range;
+
 use ombra_geometry::Point3;
 use ombra_geometry::shape::Plane;
 use rayon::prelude::*;
@@ -60,7 +62,16 @@ impl Drawn {
         view.horizon(point, normal.to_vector()).map(Self::Plane)
     }
 
-    /// The pixels that it may cover.
+    /// Those of a row of its [`cells`](Self::cells) that it may cover.
+    #[inline]
+    pub(super) fn columns(&self, row: u32, cells: &Cells, centred: bool) -> Range<u32> {
+        match self {
+            Self::Facet(facet) => facet.outline().columns(row, cells, centred),
+            Self::Plane(_) => cells.columns.clone(),
+        }
+    }
+
+    /// The box of pixels that it may cover.
     pub(super) fn cells(&self, extent: &Crop, centred: bool) -> Cells {
         match self {
             Self::Facet(facet) => facet.outline().cells(extent, centred),

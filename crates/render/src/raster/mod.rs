@@ -14,14 +14,16 @@
 //!
 //! A primitive goes this way: `source` says what there is (curved shapes become triangles), `view`
 //! projects its corners, `facet` clips it at the near plane, `outline` says which pixels it covers
-//! with the edge functions of `predicate`, `band` keeps what is nearest, `shade` lights it. `bands`
-//! deals primitives out to rows of the picture, so that threads share nothing.
+//! with the edge functions of `predicate`, `presence` leaves out what its material says is not there,
+//! `band` keeps what is nearest, `shade` lights it. `bands` deals primitives out to rows of the
+//! picture, so that threads share nothing.
 
 mod band;
 mod bands;
 mod facet;
 mod outline;
 mod predicate;
+mod presence;
 pub(crate) mod shade;
 mod source;
 mod view;
@@ -42,6 +44,7 @@ use crate::film::Pixel;
 use crate::{Crop, RenderError, Settings};
 use band::{Band, Nearest};
 use bands::{Bands, ROWS};
+use presence::PresenceTest;
 use source::{Body, Form, Source, sources};
 use view::View;
 
@@ -206,14 +209,13 @@ impl<'a> Raster<'a> {
     }
 
     fn draw(&self, band: &mut Band, index: usize, exposure: &Exposure<'_>, sample: u32) -> Tally {
-        band.draw(
-            &self.bands,
-            index,
-            &self.sources,
-            &self.view,
+        let test = PresenceTest {
+            world: self.world,
+            view: &self.view,
             exposure,
             sample,
-        )
+        };
+        band.draw(&self.bands, index, &self.sources, &test)
     }
 
     fn identify(&self, nearest: &Nearest) -> Seen {

@@ -32,20 +32,9 @@ impl Cells {
     /// Those whose samples may lie in a box, within an extent. A sample lies in the middle of its
     /// pixel or, if not `centred`, anywhere in it.
     pub(super) fn around(low: [f64; 2], high: [f64; 2], extent: &Crop, centred: bool) -> Self {
-        let range = |low: f64, high: f64, from: u32, to: u32| {
-            let (first, end) = if centred {
-                ((low - 0.5).ceil(), (high - 0.5).floor() + 1.0)
-            } else {
-                // A sample may be rounded up to where the next pixel begins.
-                (low.ceil() - 1.0, high.floor() + 1.0)
-            };
-            // Conversions of numbers that are out of range give the nearest one that is not.
-            let first = (first as u32).clamp(from, to);
-            first..(end as u32).clamp(first, to)
-        };
         Self {
-            columns: range(low[0], high[0], extent.x0, extent.x1),
-            rows: range(low[1], high[1], extent.y0, extent.y1),
+            columns: pixels([low[0], high[0]], extent.x0..extent.x1, centred),
+            rows: pixels([low[1], high[1]], extent.y0..extent.y1, centred),
         }
     }
 
@@ -53,6 +42,27 @@ impl Cells {
         self.columns.len() as u64 * self.rows.len() as u64
     }
 }
+
+/// Along one axis, the pixels whose samples may lie between two numbers.
+fn pixels([low, high]: [f64; 2], within: Range<u32>, centred: bool) -> Range<u32> {
+    let (first, end) = if centred {
+        ((low - 0.5).ceil(), (high - 0.5).floor() + 1.0)
+    } else {
+        // A sample may be rounded up to where the next pixel begins.
+        (low.ceil() - 1.0, high.floor() + 1.0)
+    };
+    // Conversions of numbers that are out of range give the nearest one that is not.
+    let first = (first as u32).clamp(within.start, within.end);
+    first..(end as u32).clamp(first, within.end)
+}
+
+/// Of no more columns than these all are looked at: to find fewer would take longer.
+const FEW: usize = 4;
+
+/// What rounding may add to the place where an edge crosses a row, as a part of the coordinates of
+/// its ends: two differences, a quotient, a product and a sum round by half of it each, and the
+/// difference of the ends is at most twice the larger of them.
+const CROSSING_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Outline {
     /// From corners in either order; `None` if they have no area or are too many.
@@ -84,7 +94,40 @@ impl Outline {
         })
     }
 
-    /// The pixels that it may cover.
+    /// Those of a row of its [`cells`](Self::cells) that it may cover: between the ends of what is
+    /// left of its edges in the row. Of a long thin polygon that is little of its box.
+    pub(super) fn columns(&self, row: u32, cells: &Cells, centred: bool) -> Range<u32> {
+        if cells.columns.len() <= FEW {
+            return cells.columns.clone();
+        }
+        let row = f64::from(row);
+        let [top, bottom] = if centred {
+            [row + 0.5; 2]
+        } else {
+            [row, row + 1.0]
+        };
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for i in 0..self.count {
+            let (a, b) = (self.corners[i], self.corners[(i + 1) % self.count]);
+            let (a, b) = if a[1] <= b[1] { (a, b) } else { (b, a) };
+            if b[1] < top || a[1] > bottom {
+                continue;
+            }
+            let [left, right] = [a[0].min(b[0]), a[0].max(b[0])];
+            let slack = CROSSING_ROUNDING * left.abs().max(right.abs());
+            let at = |y: f64| {
+                let part = (y - a[1]) / (b[1] - a[1]);
+                (a[0] + (b[0] - a[0]) * part).clamp(left, right)
+            };
+            let from = if a[1] < top { at(top) } else { a[0] };
+            let to = if b[1] > bottom { at(bottom) } else { b[0] };
+            low = low.min(from.min(to) - slack);
+            high = high.max(from.max(to) + slack);
+        }
+        pixels([low, high], cells.columns.clone(), centred)
+    }
+
+    /// The box of pixels that it may cover.
     pub(super) fn cells(&self, extent: &Crop, centred: bool) -> Cells {
         let corners = &self.corners[..self.count];
         let end = |of: fn(f64, f64) -> f64, start: f64| {
@@ -167,6 +210,43 @@ mod tests {
         assert_eq!(Outline::new(&[a, a, a]), None);
         assert_eq!(Outline::new(&[a, b]), None);
         assert_eq!(Outline::new(&[a, b, [f64::NAN, 0.0]]), None);
+    }
+
+    #[test]
+    fn rows_leave_out_nothing_that_is_covered() {
+        let extent = Crop::all(40, 40);
+        let thin = triangle([1.3, 2.1], [38.2, 37.9], [38.9, 37.2]);
+        let along = triangle([-1e9, 3.5], [1e9, 3.5], [0.0, 1e12]);
+        let steep = triangle([-3e20, -1e20], [20.5, 20.5], [20.6, 20.4]);
+        let corner = triangle([5.5, 5.5], [30.5, 5.5], [30.5, 5.6]);
+        let cut = Outline::new(&[[2.0, 0.0], [30.0, 0.0], [33.0, 39.0], [32.0, 39.0]]).unwrap();
+        for outline in [thin, along, steep, corner, cut] {
+            for centred in [true, false] {
+                let cells = outline.cells(&extent, centred);
+                let mut tests = 0;
+                for y in 0..40 {
+                    let found = outline.columns(y, &cells, centred);
+                    let row = if cells.rows.contains(&y) { found } else { 0..0 };
+                    tests += row.len() as u64;
+                    for x in 0..40 {
+                        let at = |dx, dy| [f64::from(x) + dx, f64::from(y) + dy];
+                        // The corner of the next pixel counts: a sample may be rounded to it.
+                        let samples = [at(0.0, 0.0), at(0.9, 0.1), at(0.2, 0.7), at(1.0, 1.0)];
+                        let samples = if centred {
+                            &[at(0.5, 0.5)]
+                        } else {
+                            &samples[..]
+                        };
+                        let covered = samples.iter().any(|p| outline.covers(*p));
+                        assert!(row.contains(&x) || !covered, "{x}, {y} of {outline:?}");
+                    }
+                }
+                assert!(tests <= cells.count());
+                if outline == thin {
+                    assert!(tests < cells.count() / 8, "{tests} of {}", cells.count());
+                }
+            }
+        }
     }
 
     #[test]

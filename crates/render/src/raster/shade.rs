@@ -1,12 +1,13 @@
 //! Local shading: Phong's model without a ray to be traced.
 
-use ombra_geometry::{Hit, InstanceId, Point3, PrimitiveId, Ray, TriangleMesh};
+use ombra_geometry::{Point3, Ray, TriangleMesh};
 use ombra_scene::{Interaction, Material, Rgb, Scene};
 
 use super::Raster;
 use super::band::Nearest;
 use super::bands::Item;
 use super::facet::Fragment;
+use super::presence::candidate;
 use super::source::{Body, Form};
 use crate::sampler::{Dimension, Sample};
 use crate::shading::{self, Side};
@@ -44,17 +45,8 @@ impl Raster<'_> {
                 &object.world_from_object,
             );
         }
-        // The direction of a ray has unit length, and depth is along that of the camera.
-        let ahead = self.view.camera_from_world().vector(ray.direction.wide());
-        let hit = Hit {
-            t: (fragment.depth / -ahead.z) as f32,
-            u: u as f32,
-            v: v as f32,
-            primitive: PrimitiveId(item.primitive),
-            geometry: object.geometry,
-            instance: InstanceId(item.object),
-        };
-        self.world.interaction(ray, &hit)
+        let met = candidate(self.world, &self.view, ray, item, fragment);
+        self.world.interaction(ray, &met.hit())
     }
 }
 

@@ -1,6 +1,6 @@
 //! From the world to the picture: what the camera does to a point.
 
-use ombra_geometry::{Camera as CameraSpace, Object, Point3, Transform, Vector3, World};
+use ombra_geometry::{Camera as CameraSpace, Object, Point3, Ray, Transform, Vector3, World};
 use ombra_scene::camera::{Camera, Projection};
 
 use crate::{RenderError, Settings};
@@ -147,6 +147,11 @@ impl View {
         } else {
             at_one
         }
+    }
+
+    /// Where on a ray of the camera a depth is: its t.
+    pub(super) fn along(&self, ray: &Ray, depth: f64) -> f64 {
+        depth / -self.camera_from_world.vector(ray.direction.wide()).z
     }
 
     /// The plane through `point` across `normal`, both in the camera's space, as a function of the

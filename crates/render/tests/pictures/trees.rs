@@ -117,6 +117,54 @@ fn light_that_cannot_leave_a_glass_ball() {
 }
 
 #[test]
+fn a_ball_of_glass_that_absorbs() {
+    let absorption = Rgb::new(0.1, 0.5, 2.0);
+    let glass = Material {
+        absorption,
+        emission: Rgb::new(0.0, 0.0, 0.25),
+        ..Material::glass("amber", 1.5)
+    };
+    let mut scene = scene(vec![(ball(0.0, 0.0, 0.0, 1.0), glass)], Vec::new());
+    scene.background = Rgb::new(0.9, 0.6, 0.3).into();
+    let settings = Settings {
+        max_depth: 6,
+        ..settings()
+    };
+    let camera = camera_at(point(0.0, 0.0, 5.0), point(0.0, 0.0, 0.0), 40.0);
+    let tree = tree(scene, &camera, &settings, MIDDLE);
+    let sample = &tree.samples[0];
+    let mut within = 0;
+    for (index, ray) in sample.rays.iter().enumerate() {
+        let bits = |colour: Rgb| colour.to_array().map(f32::to_bits);
+        let sum = sample.adds_up_to(index);
+        assert_eq!(bits(sum), bits(ray.radiance), "ray {index}");
+        // Rays within the ball, and only they, have come through glass.
+        let met = ray.met;
+        assert_eq!(
+            ray.absorbed.is_some(),
+            met.is_some_and(|place| !place.front),
+            "ray {index}"
+        );
+        let Some(absorbed) = ray.absorbed else {
+            continue;
+        };
+        within += 1;
+        assert!((absorbed.way - met.unwrap().hit.t).abs() < 1e-5);
+        let left = absorption.to_array().map(|a| (-a * absorbed.way).exp());
+        assert_close(absorbed.left, left.into(), 1e-6);
+        for child in sample.children(index) {
+            let child = &sample.rays[child];
+            let through_ball = ray.weight_in_pixel * absorbed.left * child.weight;
+            assert_eq!(child.weight_in_pixel, through_ball);
+        }
+    }
+    assert!(within >= 2, "{within}");
+    // Close to the middle the way is a diameter: most of the blue is gone.
+    let first = sample.rays.iter().find_map(|ray| ray.absorbed).unwrap();
+    assert!((first.way - 2.0).abs() < 0.01 && first.left.b < 0.02);
+}
+
+#[test]
 fn a_point_in_the_shade() {
     // The light comes from the upper left at 45°, and a ball is in its way.
     let in_shade = scene(

@@ -1,5 +1,6 @@
 //! The rasterizer against rays: both must see the same, but where an edge runs through a sample.
 
+mod gaps;
 mod meshes;
 mod shading;
 mod shapes;

@@ -80,8 +80,8 @@ pub(super) fn html(report: &Report<'_>, raster: &str, whitted: &str, difference:
 </div>
 <section aria-label=\"Operations\">
 <h2>What each loop costs</h2>
-<p>Tests at one sample a pixel. Without help either loop tests every primitive with every pixel; the
-box of each primitive in the picture helps the rasterizer, the structure ({accel}) helps the rays.</p>
+<p>Tests at one sample a pixel. Without help either loop tests every primitive with every pixel; that
+only the pixels between its edges are looked at helps the rasterizer, the structure ({accel}) helps the rays.</p>
 {resolutions}{primitives}</section>
 </main>
 <script>{SCRIPT}</script>

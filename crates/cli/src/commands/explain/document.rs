@@ -68,6 +68,7 @@ pub(crate) struct Ray {
     pub(crate) ambient: Option<[Number; 3]>,
     pub(crate) lights: Vec<Lit>,
     pub(crate) measured: Option<[Number; 3]>,
+    pub(crate) absorbed: Option<Absorbed>,
     pub(crate) split: Option<Split>,
     pub(crate) end: String,
     pub(crate) radiance: [Number; 3],
@@ -116,6 +117,12 @@ pub(crate) struct Lit {
     pub(crate) way: String,
     /// The shadow ray, if there is one.
     pub(crate) ray: Option<usize>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Absorbed {
+    pub(crate) way: Number,
+    pub(crate) left: [Number; 3],
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -192,6 +199,10 @@ impl Ray {
             ambient,
             lights,
             measured,
+            absorbed: ray.absorbed.map(|absorbed| Absorbed {
+                way: Number(absorbed.way),
+                left: colour(absorbed.left),
+            }),
             split: ray.split.map(|split| Split {
                 eta: Number(split.eta),
                 mirrored: Number(split.mirrored),

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 use clap::CommandFactory as _;
 use clap::error::ErrorKind;
-use ombra::formats::write_whole;
+use ombra::formats::{can_write_whole, write_whole};
 use ombra::geometry::Vector3;
 use ombra::pipeline::Cpu;
 use ombra::render::Settings;
@@ -49,6 +49,10 @@ pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
     let Some(pixel) = args.pixel else {
         wrong_usage("--pixel x,y says which pixel")
     };
+    // Before the work, so that none is in vain.
+    for path in [&args.svg, &args.glb].into_iter().flatten() {
+        can_write_whole(path)?;
+    }
     let stage = Stage::load(args, &Choice::of(args))?;
     stage.talk(args);
     let heading = stage.heading(args, pixel);

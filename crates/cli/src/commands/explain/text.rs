@@ -267,6 +267,13 @@ fn lines(ray: &Ray, all: &[Ray]) -> Vec<String> {
             format!("{text} (index ratio {})", short(split.eta.0)),
         );
     }
+    if let Some(absorbed) = &ray.absorbed {
+        let (way, left) = (short(absorbed.way.0), colour(&absorbed.left));
+        line(
+            "absorbed",
+            format!("over a way of {way}: {left} of the light is left"),
+        );
+    }
     let brings = match ray.kind.as_str() {
         "shadow" => "lets by",
         _ => "brings",

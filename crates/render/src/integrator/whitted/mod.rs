@@ -10,7 +10,7 @@ use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayPro
 use ombra_scene::{Interaction, Material, Rgb, World};
 
 use crate::Settings;
-use crate::explain::{self, End, Event, Observer, Part, RayKind, Split};
+use crate::explain::{self, Absorbed, End, Event, Observer, Part, RayKind, Split};
 use crate::exposure::Exposure;
 use crate::film::Pixel;
 use crate::optics;
@@ -254,14 +254,23 @@ impl<O: Observer> RayProgram<Radiance> for Whitted<'_, O> {
         }
         self.observer.tell(|| Event::met(hit, &place));
         self.observer.tell(|| Event::Adds(Part::Emission(emission)));
+        // A ray that meets the back of a surface came through what is behind it.
+        let absorbed = (!material.absorption.is_black() && !place.is_front()).then(|| {
+            let way = hit.t * ray.direction.length();
+            Absorbed {
+                way,
+                left: material.left_after(way),
+            }
+        });
+        if let Some(absorbed) = absorbed {
+            self.observer.tell(|| Event::Absorbs(absorbed));
+        }
         let side = Side::of(&place);
         traced.radiance = emission
             + self.local(cx, &place, &side, material, traced)?
             + self.bounced(cx, &place, &side, material, traced)?;
-        // A ray that meets the back of a surface came through what is behind it.
-        if !material.absorption.is_black() && !place.is_front() {
-            let way = hit.t * ray.direction.length();
-            traced.radiance *= material.left_after(way);
+        if let Some(absorbed) = absorbed {
+            traced.radiance *= absorbed.left;
         }
         Ok(())
     }
