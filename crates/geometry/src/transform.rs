@@ -32,6 +32,8 @@ pub struct Transform<From, To> {
     /// Rows of the 3 × 4 matrix: linear part, then translation.
     forward: [[f64; 4]; 3],
     backward: [[f64; 4]; 3],
+    /// Most objects are described where they stand, and it is asked for every ray.
+    is_identity: bool,
     spaces: PhantomData<fn(From) -> To>,
 }
 
@@ -147,7 +149,12 @@ impl<F, T> Transform<F, T> {
     /// The way back.
     #[must_use]
     pub const fn inverse(&self) -> Transform<T, F> {
-        Transform::of(self.backward, self.forward)
+        Transform {
+            forward: self.backward,
+            backward: self.forward,
+            is_identity: self.is_identity,
+            spaces: PhantomData,
+        }
     }
 
     /// First `self`, then `next`.
@@ -161,8 +168,8 @@ impl<F, T> Transform<F, T> {
 
     /// Whether this moves nothing at all.
     #[must_use]
-    pub fn is_identity(&self) -> bool {
-        self.forward == Self::identity().forward
+    pub const fn is_identity(&self) -> bool {
+        self.is_identity
     }
 
     /// The rows of the 3 × 4 matrix.
@@ -175,6 +182,9 @@ impl<F, T> Transform<F, T> {
     #[must_use]
     #[inline]
     pub fn point<R: Real>(&self, p: Point3<R>) -> Point3<R> {
+        if self.is_identity {
+            return p;
+        }
         let p = p.wide();
         let row = |r: &[f64; 4]| R::of(r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]);
         Point3::new(
@@ -201,6 +211,9 @@ impl<F, T> Transform<F, T> {
     #[must_use]
     #[inline]
     pub fn normal<R: Real>(&self, n: Normal3<R>) -> Normal3<R> {
+        if self.is_identity {
+            return n;
+        }
         let n = n.wide();
         let m = &self.backward;
         let column = |i: usize| R::of(m[0][i] * n.x + m[1][i] * n.y + m[2][i] * n.z);
@@ -233,10 +246,13 @@ impl<F, T> Transform<F, T> {
         ))
     }
 
-    const fn of(forward: [[f64; 4]; 3], backward: [[f64; 4]; 3]) -> Self {
+    fn of(forward: [[f64; 4]; 3], backward: [[f64; 4]; 3]) -> Self {
+        let of_identity =
+            |(i, row): (usize, &[f64; 4])| (0..4).all(|j| row[j] == if i == j { 1.0 } else { 0.0 });
         Self {
             forward,
             backward,
+            is_identity: forward.iter().enumerate().all(of_identity),
             spaces: PhantomData,
         }
     }

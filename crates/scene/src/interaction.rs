@@ -166,6 +166,9 @@ impl Interaction {
 
 /// By how much a transform can enlarge a number at most: the largest absolute row sum.
 fn growth(transform: &Transform<Object, World>) -> f32 {
+    if transform.is_identity() {
+        return 1.0;
+    }
     let rows = transform.rows().iter();
     rows.map(|[x, y, z, _]| x.abs() + y.abs() + z.abs())
         .fold(0.0, f64::max) as f32

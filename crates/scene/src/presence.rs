@@ -19,19 +19,21 @@ pub(crate) fn is_there(scene: &Scene, ray: &Ray<f64>, candidate: &Candidate) -> 
     if material.one_sided {
         // In the object's own space: a transform that mirrors turns the order in which corners are
         // met, but not the side that is outside.
-        let ray = if object.world_from_object.is_identity() {
-            *ray
-        } else {
-            object.world_from_object.inverse().ray(ray)
+        let ray = match &object.world_from_object {
+            stays if stays.is_identity() => *ray,
+            moved => moved.inverse().ray(ray),
         };
-        let normal = match geometry {
-            Geometry::Mesh(mesh) => mesh.mesh().geometric_normal(primitive),
+        let direction = ray.direction;
+        let is_behind = match geometry {
+            Geometry::Mesh(mesh) => {
+                let normal = mesh.mesh().geometric_normal(primitive);
+                normal.is_some_and(|n: Normal3<f64>| n.dot(direction) > 0.0)
+            }
             Geometry::Shapes(shapes) => {
-                let point = ray.at(candidate.t);
-                Some(shapes.0[primitive].normal_at(point))
+                shapes.0[primitive].leads_out(ray.at(candidate.t), direction)
             }
         };
-        if normal.is_some_and(|n: Normal3<f64>| n.dot(ray.direction) > 0.0) {
+        if is_behind {
             return false;
         }
     }

@@ -35,7 +35,7 @@ mod triangle;
 
 use std::ops::ControlFlow;
 
-use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray};
+use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray, Vector3};
 
 pub use cone::Cone;
 pub use cuboid::Cuboid;
@@ -86,6 +86,13 @@ pub trait Surface {
     #[inline]
     fn normal_at(&self, point: Point3<f64>) -> Normal3<f64> {
         self.surface_at(point).normal
+    }
+
+    /// Whether a direction leads out through the surface at a point on it: to the side that the normal
+    /// there points to.
+    #[inline]
+    fn leads_out(&self, point: Point3<f64>, direction: Vector3<f64>) -> bool {
+        self.normal_at(point).dot(direction) > 0.0
     }
 
     /// The area of the surface; infinite where the shape is.
@@ -235,6 +242,11 @@ impl Surface for Shape {
     #[inline]
     fn normal_at(&self, point: Point3<f64>) -> Normal3<f64> {
         each!(self, shape => shape.normal_at(point))
+    }
+
+    #[inline]
+    fn leads_out(&self, point: Point3<f64>, direction: Vector3<f64>) -> bool {
+        each!(self, shape => shape.leads_out(point, direction))
     }
 
     fn area(&self) -> f64 {

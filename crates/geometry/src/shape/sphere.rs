@@ -105,6 +105,11 @@ impl Surface for Sphere {
         outward.unwrap_or(Vector3::new(0.0, 0.0, 1.0)).to_normal()
     }
 
+    #[inline]
+    fn leads_out(&self, point: Point3<f64>, direction: Vector3<f64>) -> bool {
+        (point - self.centre.wide()).dot(direction) > 0.0
+    }
+
     fn area(&self) -> f64 {
         4.0 * PI * f64::from(self.radius) * f64::from(self.radius)
     }
@@ -138,6 +143,20 @@ mod tests {
             let through = Ray::new(Point3::new(-2.0, 0.0, 0.0), Vector3::new(1.0, 0.0, 0.0));
             assert!(bad.crossings(&through).is_empty(), "{bad:?}");
             assert!(bad.bounds().is_empty() && bad.sample([0.5, 0.5]).is_none());
+        }
+    }
+
+    #[test]
+    fn what_leads_out_goes_along_the_normal() {
+        let ball = Sphere::new(Point3::new(1.0, -2.0, 0.5), 0.75);
+        for i in 0..64 {
+            let xi = [i % 8, i / 8].map(|x| (x as f32 + 0.5) / 8.0);
+            let at = ball.sample(xi).unwrap();
+            for direction in [(1.0, 0.0, 0.0), (-0.3, 0.9, 2.0), (0.0, -1.0, 0.1)] {
+                let direction = Vector3::new(direction.0, direction.1, direction.2);
+                let along = ball.normal_at(at.point).dot(direction) > 0.0;
+                assert_eq!(ball.leads_out(at.point, direction), along);
+            }
         }
     }
 
