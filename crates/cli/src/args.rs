@@ -39,7 +39,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// A scene file (.toml), a model (.obj, .ply, .stl, each also with .gz) or a built-in scene's name
+    /// A scene file (.toml), a model (.obj, .ply, .stl, .gltf, .glb, also with .gz) or a built-in scene's name
     pub(crate) scene: String,
 
     /// Where to write the picture; the ending chooses the format: png, exr, pfm, ppm
@@ -101,7 +101,7 @@ pub(crate) struct RenderArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
-    /// A scene file (.toml), a model (.obj, .ply, .stl, each also with .gz) or a built-in scene's name
+    /// A scene file (.toml), a model (.obj, .ply, .stl, .gltf, .glb, also with .gz) or a built-in scene's name
     pub(crate) scene: String,
 
     /// The folder for the pictures and the page; made if it is not there [default: SCENE-compared]

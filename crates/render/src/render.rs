@@ -8,6 +8,7 @@ use ombra_pipeline::{
 use ombra_scene::{Camera, Rgb, World};
 
 use crate::compare::LocalLight;
+use crate::display::Response;
 use crate::exposure::Exposure;
 use crate::film::{Crop, Film, Pixel};
 use crate::integrator::{AmbientOcclusion, Cost, Depth, Normals, Whitted};
@@ -75,6 +76,22 @@ pub enum RenderError {
     DepthOutOfRange {
         /// How many were asked for.
         max_depth: u32,
+    },
+    /// A share of light below 0, infinite or NaN.
+    #[error("the least importance of a ray is {least_importance}: 0 or more is needed")]
+    ImportanceOutOfRange {
+        /// What was asked for.
+        least_importance: f32,
+    },
+    /// A film that makes no picture.
+    #[error(
+        "a film with sensitivity {}, fog {} and white {} makes no picture: they must be finite, fog 0 or \
+         more, the others above 0",
+        .response.sensitivity, .response.fog, .response.white
+    )]
+    NoResponse {
+        /// What was asked for.
+        response: Response,
     },
     /// Light bounced more often than the stack of a thread allows. It allows [`MAX_DEPTH`] bounces
     /// unless threads were given less than the two megabytes that they have by default.

@@ -34,8 +34,8 @@ pub struct Settings {
     /// [`Cutoff`](ombra_scene::Cutoff).
     pub max_depth: u32,
     /// What share of a ray's light must arrive at its pixel for the ray to be worth tracing, 0 or more;
-    /// what is seen in place of the others is the scene's to say, as beyond the last bounce. Lights
-    /// that all together would bring less are not asked for. Where
+    /// what is seen in place of the others is the scene's to say, as beyond the last bounce. Lights of
+    /// which all together a smaller share would arrive are not asked. Where
     /// surfaces are both mirrors and glass, rays double with every bounce at 0.
     pub least_importance: f32,
     /// Chooses the random numbers.
@@ -92,6 +92,8 @@ impl Settings {
             height,
             spp,
             max_depth,
+            least_importance,
+            response,
             ..
         } = *self;
         let extent = self.extent();
@@ -113,6 +115,10 @@ impl Settings {
             Err(RenderError::SamplesOutOfRange { spp })
         } else if max_depth > MAX_DEPTH {
             Err(RenderError::DepthOutOfRange { max_depth })
+        } else if !(0.0..=f32::MAX).contains(&least_importance) {
+            Err(RenderError::ImportanceOutOfRange { least_importance })
+        } else if !response.is_valid() {
+            Err(RenderError::NoResponse { response })
         } else {
             Ok(())
         }
@@ -155,6 +161,17 @@ mod tests {
             },
             Settings {
                 max_depth: u32::MAX,
+                ..good.clone()
+            },
+            Settings {
+                least_importance: f32::NAN,
+                ..good.clone()
+            },
+            Settings {
+                response: Response {
+                    white: 0.0,
+                    ..Response::default()
+                },
                 ..good.clone()
             },
             crop(5, 5, 5, 9),

@@ -57,7 +57,9 @@ pub struct Material {
     /// A picture that `emission` is multiplied by.
     pub emission_picture: Option<PictureTexture>,
     /// How much of light is lost on its way behind the surface, per unit of length and colour, 0 or
-    /// more: of what comes the distance d, exp(−absorption · d) is left (Beer's law).
+    /// more: of what comes the distance d, exp(−absorption · d) is left (Beer's law). Only a ray that
+    /// meets the back of this very surface is absorbed: one that meets something else inside is not,
+    /// nor are shadow rays.
     pub absorption: Rgb,
     /// Whether only the outer side is there: rays that come from behind pass as if there were
     /// nothing.

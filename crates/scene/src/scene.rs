@@ -64,7 +64,7 @@ impl Default for Scene {
 }
 
 /// A description that does not fit together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// An object names a geometry that is not there.
@@ -86,6 +86,12 @@ pub enum SceneError {
         material: MaterialId,
         /// How many there are.
         count: usize,
+    },
+    /// Rays cannot begin to look there.
+    #[error("t_min is {t_min}; 0 or more is needed")]
+    NoBeginning {
+        /// What it is.
+        t_min: f32,
     },
     /// A light belongs to an object that is not there.
     #[error("light {light} belongs to object {object}, but there are {count}")]
@@ -157,11 +163,11 @@ impl Scene {
         }
     }
 
-    /// Checks that every object names a geometry and a material that is there, and every light of an
-    /// object an object.
+    /// Checks that every object names a geometry and a material that is there, every light of an object
+    /// an object, and that rays begin somewhere.
     ///
     /// # Errors
-    /// The first object or light that does not.
+    /// The first that does not.
     pub fn validate(&self) -> Result<(), SceneError> {
         for (index, object) in self.objects.iter().enumerate() {
             let (geometry, material) = (object.geometry, object.material);
@@ -181,6 +187,9 @@ impl Scene {
                     count,
                 });
             }
+        }
+        if !(0.0..=f32::MAX).contains(&self.t_min) {
+            return Err(SceneError::NoBeginning { t_min: self.t_min });
         }
         for (index, light) in self.lights.iter().enumerate() {
             if let Light::Luminous { object, .. } = light

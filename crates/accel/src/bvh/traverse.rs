@@ -97,7 +97,7 @@ fn pop(waiting: &mut ArrayVec<Waiting, MAX_DEPTH>, t_max: f32) -> Option<(u32, u
 /// 4. Differences that overflow become ± ∞ with the right sign, and comparisons include equality.
 #[derive(Clone, Copy, Debug)]
 struct Slabs {
-    /// By axis: twice the origin for lower planes, twice that for upper ones, as in
+    /// By axis: the origin for lower planes in the first two, that for upper ones in the last two, as in
     /// [`Siblings::planes`].
     origin: [Lanes; 3],
     /// By axis, four times the same.

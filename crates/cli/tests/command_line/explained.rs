@@ -187,6 +187,73 @@ fn where_to_write_is_looked_at_before_the_work() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
+/// The numbers of the title: of rays drawn, and of all.
+fn drawn(folder: &Path, spp: &str) -> ([usize; 2], String, String) {
+    let options = ["--pixel", "18,22", "--spp", spp, "--svg", "many.svg"];
+    let command = [&["explain", "whitted"], &SMALL[..], &options].concat();
+    let output = run(folder, &command);
+    assert!(output.status.success(), "{output:?}");
+    let svg = std::fs::read_to_string(folder.join("many.svg")).unwrap();
+    let title = svg
+        .split(['<', '>'])
+        .find(|text| text.contains("rays drawn"));
+    let title = title.unwrap().to_owned();
+    let mut words = title.split(' ');
+    let [drawn, all] = [0, 1].map(|nth| words.nth(nth).unwrap().parse().unwrap());
+    let talk = String::from_utf8_lossy(&output.stderr).into_owned();
+    ([drawn, all], title, talk)
+}
+
+#[test]
+fn of_many_samples_some_rays_are_drawn_and_all_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    // All camera rays weigh the same, and there are more of them than are drawn.
+    let ([some, all], title, talk) = drawn(folder.path(), "256");
+    assert_eq!((some, talk.as_str()), (200, ""), "{title}");
+    // What is said adds up.
+    let numbers = title
+        .split(' ')
+        .filter_map(|word| word.parse::<usize>().ok());
+    assert_eq!(numbers.sum::<usize>(), 2 * all, "{title}");
+    assert!(!title.contains("samples"), "{title}");
+
+    let ([some, of_all], title, talk) = drawn(folder.path(), "4096");
+    assert_eq!(some, 200, "{title}");
+    assert!(of_all > 15 * all, "{title}");
+    for said in [&title, &talk] {
+        assert!(
+            said.contains("the last ") && said.contains(" samples with "),
+            "{said}"
+        );
+    }
+    let numbers = title
+        .split(' ')
+        .filter_map(|word| word.parse::<usize>().ok());
+    let samples = title.rsplit(' ').nth(4).unwrap().parse::<usize>().unwrap();
+    assert_eq!(numbers.sum::<usize>(), 2 * of_all + samples, "{title}");
+}
+
+#[test]
+fn without_rays_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for more in [&["--json"][..], &[], &["--svg", "a.svg"]] {
+        let options = [
+            "explain",
+            "whitted",
+            "--pixel",
+            "1,1",
+            "--integrator",
+            "raster",
+        ];
+        let output = run(folder.path(), &[&options[..], &SMALL, more].concat());
+        assert_eq!(output.status.code(), Some(1), "{more:?}");
+        assert!(output.stdout.is_empty(), "{more:?}");
+        let talk = String::from_utf8_lossy(&output.stderr);
+        assert!(talk.contains("traces no rays"), "{talk}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
 #[test]
 fn what_glass_absorbs_is_told() {
     let Some(data) = outside_data() else {

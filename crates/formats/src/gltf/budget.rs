@@ -13,7 +13,8 @@ const ALWAYS: u64 = 1 << 18;
 pub(super) struct Budget {
     /// Triangles of all geometries.
     pub(super) triangles: u64,
-    /// Objects: primitives times the places where their meshes stand.
+    /// Placements of meshes and, for each, the primitives of the mesh; those that come to nothing
+    /// count too, since they take time.
     pub(super) objects: u64,
 }
 

@@ -41,7 +41,8 @@ pub(super) struct View<'a> {
 
 impl<'a> Buffers<'a> {
     /// Reads the buffers of a document: the binary chunk, data URIs, and files in its folder. Memory
-    /// follows what is there; a file that several buffers name is read once.
+    /// follows what is there; a file that several buffers name is read once, as far as the longest
+    /// of them goes.
     pub(super) fn read(
         document: &Document,
         binary: Option<&'a [u8]>,
@@ -51,8 +52,19 @@ impl<'a> Buffers<'a> {
             all: Vec::with_capacity(document.buffers.len()),
             files: Vec::new(),
         };
-        let mut known = HashMap::new();
+        let mut paths = Vec::with_capacity(document.buffers.len());
+        let mut longest = HashMap::<PathBuf, u64>::new();
         for (index, spec) in document.buffers.iter().enumerate() {
+            let uri = spec.uri.as_deref().filter(|uri| !uri::is_data(uri));
+            let path = uri.map(|uri| file(folder, uri, &format!("buffers[{index}]")));
+            if let Some(Ok(path)) = &path {
+                let most = longest.entry(path.clone()).or_default();
+                *most = spec.byte_length.max(*most);
+            }
+            paths.push(path);
+        }
+        let mut known = HashMap::new();
+        for (index, (spec, path)) in document.buffers.iter().zip(paths).enumerate() {
             let place = format!("buffers[{index}]");
             let (bytes, source) = match &spec.uri {
                 None => {
@@ -63,17 +75,18 @@ impl<'a> Buffers<'a> {
                     })?;
                     (Bytes::InFile(binary), Cow::Borrowed("the BIN chunk"))
                 }
-                Some(uri) => match uri::data(uri) {
-                    Some(data) => {
+                Some(uri) => match path {
+                    None => {
+                        let data = uri::data(uri).unwrap_or_else(|| Ok(Vec::new()));
                         let data = data.map_err(|error| wrong(format!("{place}.uri"), error))?;
                         (Bytes::Read(data.into()), Cow::Borrowed("the data URI"))
                     }
-                    None => {
-                        let path = file(folder, uri, &place)?;
+                    Some(path) => {
+                        let path = path?;
                         let bytes = match known.get(&path) {
                             Some(bytes) => Rc::clone(bytes),
                             None => {
-                                let bytes: Rc<[u8]> = uri::read(&path, u64::MAX)?.into();
+                                let bytes: Rc<[u8]> = uri::read(&path, longest[&path])?.into();
                                 known.insert(path.clone(), Rc::clone(&bytes));
                                 buffers.files.push(path);
                                 bytes

@@ -97,7 +97,7 @@ pub(super) fn build(
         builder.node(&placed)?;
     }
     builder.rest_pose();
-    builder.shine();
+    builder.shine()?;
     builder.expose();
     let info = builder.info(parts);
     let mut findings: Vec<Finding> = builder.notes.into_findings().collect();
@@ -136,7 +136,9 @@ impl Builder<'_> {
             None => self.mesh(mesh, spec, &placed.matrix, &place),
             Some(spread) => {
                 let (document, buffers) = (self.document, self.reader.buffers);
-                let most = self.objects_left;
+                // Before any is made: what each of them will be charged.
+                let primitives = document.meshes.get(mesh).map_or(0, |m| m.primitives.len());
+                let most = self.objects_left / (1 + primitives as u64);
                 let matrices = instancing::placements(document, buffers, spread, most, &place)?;
                 for matrix in matrices {
                     let matrix = product(&placed.matrix, &matrix);
@@ -156,6 +158,7 @@ impl Builder<'_> {
         place: &str,
     ) -> Result<(), FormatError> {
         let document = self.document;
+        self.charge(place)?;
         let mesh = document.meshes.get(index).ok_or_else(|| {
             let count = document.meshes.len();
             wrong(format!("{place}.mesh"), no_such("meshes", index, count))
@@ -165,6 +168,7 @@ impl Builder<'_> {
         };
         let name = node.name.as_ref().or(mesh.name.as_ref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
+            self.charge(place)?;
             let at = format!("meshes[{index}].primitives[{number}]");
             let called = mesh.name.as_deref();
             let used = self.surface(primitive.material, &at)?;
@@ -182,16 +186,18 @@ impl Builder<'_> {
             let Some(geometry) = self.geometry(key, used, &at, called)? else {
                 continue;
             };
-            self.objects_left = self.objects_left.checked_sub(1).ok_or_else(|| {
-                wrong(
-                    place,
-                    "places more than a file of this size is trusted with",
-                )
-            })?;
             let name = name.cloned().unwrap_or_else(|| at.clone());
             self.scene
                 .place_again(name, geometry, used.id, world_from_object);
         }
+        Ok(())
+    }
+
+    /// Pays for a placement or a primitive of one, whether or not anything comes of it.
+    fn charge(&mut self, place: &str) -> Result<(), FormatError> {
+        let message = "places more than a file of this size is trusted with";
+        let left = self.objects_left.checked_sub(1);
+        self.objects_left = left.ok_or_else(|| wrong(place, message))?;
         Ok(())
     }
 
@@ -331,9 +337,9 @@ impl Builder<'_> {
     }
 
     /// Without lights, what shines gets some.
-    fn shine(&mut self) {
+    fn shine(&mut self) -> Result<(), FormatError> {
         if !self.scene.lights.is_empty() {
-            return;
+            return Ok(());
         }
         let mut emitters: Vec<Emitter> = Vec::new();
         for (index, object) in self.scene.objects.iter().enumerate() {
@@ -343,11 +349,23 @@ impl Builder<'_> {
                 continue;
             }
             let placement = &object.world_from_object;
-            emitters.extend(mesh.and_then(|m| emitter(index, m, material.emission, placement)));
+            let Some(emitter) = mesh.and_then(|m| emitter(index, m, material.emission, placement))
+            else {
+                continue;
+            };
+            if !emitter.is_finite {
+                let message = format!(
+                    "{:?} over the area of \"{}\" is more than a number holds",
+                    material.emission.to_array(),
+                    object.name
+                );
+                return Err(wrong(self.place_of(object.material), message));
+            }
+            emitters.push(emitter);
         }
         let (lights, objects, left_out) = strongest(emitters);
         if lights.is_empty() {
-            return;
+            return Ok(());
         }
         self.notes.add(
             "lights",
@@ -365,8 +383,20 @@ impl Builder<'_> {
             material.diffuse = Rgb::BLACK.into();
             material.specular = Rgb::BLACK;
             material.reflection = Rgb::BLACK;
+            material.transmission = Rgb::BLACK;
         }
         self.scene.lights = lights;
+        Ok(())
+    }
+
+    /// Where in the document the light of a material is.
+    fn place_of(&self, material: MaterialId) -> String {
+        let mut used = self.surfaces.iter();
+        let index = used.find_map(|(index, used)| index.filter(|_| used.id == material));
+        index.map_or_else(
+            || "materials".to_owned(),
+            |index| format!("materials[{index}].emissiveFactor"),
+        )
     }
 
     fn expose(&mut self) {

@@ -20,6 +20,8 @@ pub(super) struct Emitter {
     /// The place of an object in the scene, for those that are chosen.
     pub(super) object: usize,
     light: Light,
+    /// Whether its light is one that numbers can hold.
+    pub(super) is_finite: bool,
     strength: f32,
 }
 
@@ -72,6 +74,7 @@ pub(super) fn emitter(
     Some(Emitter {
         object,
         light,
+        is_finite: full.to_array().iter().all(|c| c.is_finite()),
         strength: full.max_component(),
     })
 }

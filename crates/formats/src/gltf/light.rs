@@ -40,6 +40,13 @@ pub(super) fn light(spec: &LightSpec, matrix: &Matrix, place: &str) -> Result<Li
         }
     };
     let intensity = Rgb::from(spec.color) * (spec.intensity * FRAC_1_PI);
+    if !intensity.to_array().iter().all(good) {
+        let message = format!(
+            "is {}, which times the color {:?} is more than a number holds",
+            spec.intensity, spec.color
+        );
+        return Err(wrong(format!("{place}.intensity"), message));
+    }
     let column = |i: usize| Vector3::new(matrix[0][i], matrix[1][i], matrix[2][i]);
     let position = Point3::ORIGIN + column(3).cast::<f32>();
     let direction = -column(2).normalized().unwrap_or_default().cast::<f32>();

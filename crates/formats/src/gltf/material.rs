@@ -206,6 +206,13 @@ fn emission(
     };
     let factor = colour(spec.emissive_factor, &format!("{place}.emissiveFactor"))?;
     material.emission = factor * strength;
+    if !material.emission.to_array().iter().all(|c| c.is_finite()) {
+        let message = format!(
+            "is {:?}, which times the emissiveStrength {strength} is more than a number holds",
+            spec.emissive_factor
+        );
+        return Err(wrong(format!("{place}.emissiveFactor"), message));
+    }
     let Some(texture) = &spec.emissive_texture else {
         return Ok(());
     };

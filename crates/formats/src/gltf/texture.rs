@@ -17,6 +17,12 @@ use crate::finding::Finding;
 use crate::image::{mean_of_bytes, texture_of_bytes};
 use crate::limits::{Limits, take_pixels};
 
+/// What a pixel takes at most in the file of a picture: four channels of 16 bits.
+const BYTES_PER_PIXEL: u64 = 8;
+
+/// What the file of a picture may hold besides its pixels, such as previews and profiles: 16 MiB.
+const BYTES_BESIDES: u64 = 16 << 20;
+
 /// Loads textures, each image once.
 pub(super) struct Textures<'a> {
     document: &'a Document,
@@ -164,7 +170,7 @@ impl<'a> Textures<'a> {
                 Some(data) => data
                     .map_err(|error| wrong(format!("{}.uri", place()), error))?
                     .into(),
-                None => return self.load_file(uri, decode),
+                None => return self.load_file(index, uri, decode),
             },
             (None, None) => {
                 let message = "has neither a uri nor a bufferView; one of them is right";
@@ -175,8 +181,11 @@ impl<'a> Textures<'a> {
         decoded.map(Some).map_err(|error| in_image(index, &error))
     }
 
+    /// From a file of at most [`BYTES_PER_PIXEL`] for each pixel that is allowed, and
+    /// [`BYTES_BESIDES`].
     fn load_file<T>(
         &mut self,
+        index: usize,
         uri: &str,
         decode: impl Fn(&[u8], &Limits) -> Result<T, FormatError>,
     ) -> Result<Option<T>, FormatError> {
@@ -190,7 +199,15 @@ impl<'a> Textures<'a> {
         };
         match found {
             Ok(path) => {
-                let bytes = uri::read(&path, u64::MAX)?;
+                let pixels = self.limits.image_pixels.saturating_mul(BYTES_PER_PIXEL);
+                let most = pixels.saturating_add(BYTES_BESIDES);
+                let bytes = uri::read(&path, most.saturating_add(1))?;
+                if bytes.len() as u64 > most {
+                    let name = uri::file_name(uri);
+                    let message =
+                        format!("\"{name}\" has more than {most} bytes, the most for a picture");
+                    return Err(wrong(format!("images[{index}].uri"), message));
+                }
                 let decoded = decode(&bytes, &self.limits).map_err(|e| e.in_file(&path))?;
                 if !self.files.contains(&path) {
                     self.files.push(path);

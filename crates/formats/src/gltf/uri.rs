@@ -20,10 +20,15 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
+/// Whether a URI holds its bytes itself.
+pub(super) fn is_data(uri: &str) -> bool {
+    let scheme = uri.get(..5);
+    scheme.is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
 /// The bytes of a data URI; `None` if it is a URI of another kind.
 pub(super) fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
-    let scheme = uri.get(..5)?;
-    if !scheme.eq_ignore_ascii_case("data:") {
+    if !is_data(uri) {
         return None;
     }
     let Some((kind, content)) = uri[5..].split_once(',') else {

@@ -107,6 +107,11 @@ fn read(mut source: Source<'_>, limits: &Limits) -> Result<ContestPicture, Forma
             let fail = |fault| FormatError::line(last, fault);
             match needed {
                 None => {
+                    if size.is_empty() && word.first().is_some_and(|b| !b.is_ascii_digit()) {
+                        let found = crate::error::quoted(word);
+                        let expected = "the contest's format, \"xsize ysize\" and then \"r g b\" for each pixel,";
+                        return Err(fail(Fault::Unexpected { found, expected }));
+                    }
                     let side = whole(word, "a side of the picture").map_err(fail)?;
                     let side = u32::try_from(side)
                         .ok()

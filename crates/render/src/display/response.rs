@@ -41,6 +41,15 @@ impl Default for Response {
 }
 
 impl Response {
+    /// Whether all numbers are in their ranges.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        let above_zero = |x: f32| x > 0.0 && x.is_finite();
+        above_zero(self.sensitivity)
+            && above_zero(self.white)
+            && (0.0..=f32::MAX).contains(&self.fog)
+    }
+
     /// The number of the picture for some radiance.
     #[must_use]
     #[inline]

@@ -74,7 +74,8 @@ pub enum ExplainError {
 /// arguments. Memory is taken for all of them; [`Explainer`] gives one sample at a time.
 ///
 /// # Errors
-/// When there is no such picture or pixel, or one sample has more than [`MAX_RAYS`] rays.
+/// When there is no such picture or pixel, the picture is made without rays, or one sample has more
+/// than [`MAX_RAYS`] of them.
 pub fn explain(
     world: &World,
     camera: &Camera,
@@ -109,7 +110,7 @@ impl<'a> Explainer<'a> {
     /// For one pixel of a picture; the crop of the settings plays no part.
     ///
     /// # Errors
-    /// When there is no such picture or pixel.
+    /// When there is no such picture or pixel, or the picture is made without rays.
     pub fn new(
         world: &'a World,
         camera: &'a Camera,
@@ -127,6 +128,10 @@ impl<'a> Explainer<'a> {
             ..settings.clone()
         };
         one(0, 0).validate()?;
+        if settings.integrator == IntegratorKind::Raster {
+            let integrator = settings.integrator;
+            return Err(ExplainError::NoRays { integrator });
+        }
         if x >= width || y >= height {
             return Err(ExplainError::PixelOutside {
                 x,

@@ -53,12 +53,12 @@ impl Projected {
     /// Where the way to another point meets the near plane, after this part of it.
     pub(super) fn toward(&self, other: &Self, part: f64, near: f64) -> Self {
         let lerp = |a: f64, b: f64| a + (b - a) * part;
-        let perspective = self.w == self.depth;
         Self {
             x: lerp(self.x, other.x),
             y: lerp(self.y, other.y),
-            // What rounding would make of it could be 0, or behind the eye.
-            w: if perspective { near } else { self.w },
+            // With perspective the two differ, on either side of the plane. What rounding would make of
+            // it could be 0, or behind the eye.
+            w: if self.w == other.w { self.w } else { near },
             depth: near,
         }
     }

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use ombra_accel::{Geometry, Shapes};
 use ombra_geometry::shape::{Cone, Cylinder, Disk, Ends, Plane, Shape, Sphere, Torus};
-use ombra_geometry::{Angle, Normal3, Transform, Vector3};
+use ombra_geometry::{Angle, Normal3, Transform, TriangleMesh, Vector3};
 use ombra_pipeline::Cpu;
 use ombra_render::raster::notice;
 use ombra_render::{IntegratorKind, RenderError, Settings, Watch, render};
@@ -13,7 +13,7 @@ use ombra_scene::camera::{
 };
 use ombra_scene::{Light, Material, Rgb, Scene, World};
 
-use crate::{assert_agreement, camera, compared, point, settings, world};
+use crate::{assert_agreement, camera, compared, point, scene, settings, world};
 
 fn of_shapes(shapes: Vec<Shape>) -> Scene {
     let mut scene = Scene {
@@ -136,6 +136,23 @@ fn shapes_around_the_eye_are_seen_from_within() {
     ]));
     let eye = camera(point(0.1, 0.2, 0.3), point(5.0, 0.4, 0.1), 70.0);
     assert_agreement(&sky, &eye, "from within");
+}
+
+#[test]
+fn a_corner_at_distance_one_is_no_sign_of_perspective() {
+    let corners = [
+        point(-1.0, -1.0, -1.0),
+        point(1.0, -1.0, 2.0),
+        point(0.0, 1.0, -3.0),
+    ];
+    let mesh = TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
+    let through = world(scene(vec![mesh]));
+    let eye = Camera {
+        pose: Pose::look_at(point(0.0, 0.0, 0.0), point(0.0, 0.0, -1.0), Vector3::Y).unwrap(),
+        projection: Projection::Orthographic(Orthographic { height: 3.0 }),
+    };
+    assert_agreement(&through, &eye, "through the plane of the camera");
+    assert!(compared(&through, &eye, 1).covered > 1000);
 }
 
 #[test]

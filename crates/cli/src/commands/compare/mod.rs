@@ -1,6 +1,5 @@
 //! `ombra compare`: the two loops side by side.
 
-mod base64;
 mod page;
 mod report;
 
@@ -11,6 +10,8 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
 use anyhow::Context as _;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use ombra::formats::{ImageBuffer, Metadata, write_image, write_whole};
 use ombra::pipeline::Cpu;
 use ombra::render::compare::{Comparison, compare, eight_bits};
@@ -157,7 +158,7 @@ fn write(
         let image = ImageBuffer::new(raster.width(), raster.height(), pixels)?;
         write_image(&path, &image, &metadata)?;
         let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
-        urls.push(format!("data:image/png;base64,{}", base64::encode(&bytes)));
+        urls.push(format!("data:image/png;base64,{}", STANDARD.encode(bytes)));
     }
     let [raster, whitted, difference] = [&urls[0], &urls[1], &urls[2]].map(String::as_str);
     let page = page::html(report, raster, whitted, difference);

@@ -11,7 +11,7 @@ use crate::args::{Accel, Size, Up, accel, named, size};
 
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArgs {
-    /// A scene file (.toml), a model (.obj, .ply, .stl, each also with .gz) or a built-in scene's name
+    /// A scene file (.toml), a model (.obj, .ply, .stl, .gltf, .glb, also with .gz) or a built-in scene's name
     pub(crate) scene: String,
 
     /// Which pixel: column and row, from the upper left corner, which is 0,0. Only --diff can do without

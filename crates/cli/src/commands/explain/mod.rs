@@ -33,6 +33,7 @@ use document::{FORMAT, Heading, Sample};
 use drawing::Drawing;
 use number::numbers;
 use side::Choice;
+use text::counted;
 
 const SIZE: Size = Size {
     width: 960,
@@ -69,24 +70,23 @@ pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
     };
     let explainer = RefCell::new(&mut explainer);
     let drawn = args.svg.is_some() || args.glb.is_some();
-    let kept: RefCell<Vec<SampleTree>> = RefCell::default();
+    let kept: RefCell<Kept> = RefCell::default();
     let mut indices = indices;
-    let next = || -> anyhow::Result<Option<Sample>> {
+    let mut explained = || -> anyhow::Result<Option<Sample>> {
         let Some(index) = indices.next() else {
             return Ok(None);
         };
         let tree = explainer.borrow_mut().sample(index, &cpu)?;
-        if drawn
-            && kept
-                .borrow()
-                .iter()
-                .map(|tree| tree.rays.len())
-                .sum::<usize>()
-                < MAX_KEPT
-        {
-            kept.borrow_mut().push(tree.clone());
+        if drawn {
+            kept.borrow_mut().keep(&tree);
         }
         Ok(Some(Sample::of(&tree, world.scene())))
+    };
+    // Before anything is written: what cannot be explained leaves no half of a text.
+    let mut first = explained()?;
+    let next = || match first.take() {
+        None => explained(),
+        first => Ok(first),
     };
     let colour = || numbers(explainer.borrow().colour().to_array());
     let mut out = BufWriter::new(io::stdout().lock());
@@ -107,19 +107,53 @@ pub(crate) fn run(args: &ExplainArgs) -> anyhow::Result<ExitCode> {
         text.end(colour(), args.sample.is_none())?;
     }
     out.flush()?;
-    let samples = kept.borrow();
+    let kept = kept.borrow();
+    if let Some(notice) = kept.notice().filter(|_| !args.quiet) {
+        // Nobody is left to tell if this fails.
+        let _ = writeln!(io::stderr(), "not drawn: {notice}");
+    }
     if let Some(path) = &args.svg {
         let drawing = Drawing {
             heading: &heading,
             scene: stage.scene(),
-            samples: &samples,
+            kept: &kept,
         };
         write_whole(path, drawing.svg().as_bytes())?;
     }
     if let Some(path) = &args.glb {
-        model::model(stage.scene(), &samples).write(path)?;
+        model::model(stage.scene(), &kept.samples).write(path)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The samples that a drawing or a model shows.
+#[derive(Debug, Default)]
+pub(crate) struct Kept {
+    samples: Vec<SampleTree>,
+    /// The rays of these.
+    rays: usize,
+    /// How many more samples there are, and their rays.
+    left_out: (usize, usize),
+}
+
+impl Kept {
+    fn keep(&mut self, tree: &SampleTree) {
+        let rays = tree.rays.len();
+        if self.rays < MAX_KEPT {
+            self.rays += rays;
+            self.samples.push(tree.clone());
+        } else {
+            self.left_out.0 += 1;
+            self.left_out.1 += rays;
+        }
+    }
+
+    /// What was left out because there is too much of it; none if nothing was.
+    fn notice(&self) -> Option<String> {
+        let (samples, rays) = self.left_out;
+        let (samples, rays) = (counted(samples, "sample"), counted(rays, "ray"));
+        (self.left_out.0 > 0).then(|| format!("the last {samples} with {rays}"))
+    }
 }
 
 /// An error of writing is told from one of explaining, so that a reader like `head` may go away.

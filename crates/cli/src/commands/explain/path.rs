@@ -68,13 +68,41 @@ pub(crate) fn paths(samples: &[SampleTree]) -> (Vec<Path>, usize) {
             });
         }
     }
-    let left_out = paths.len().saturating_sub(MAX_DRAWN);
-    if left_out > 0 {
-        let mut weights: Vec<f32> = paths.iter().map(|path| path.weight).collect();
-        weights.sort_unstable_by(|a, b| b.total_cmp(a));
-        let least = weights[MAX_DRAWN];
-        paths.retain(|path| path.weight > least);
-        paths.truncate(MAX_DRAWN);
-    }
+    let left_out = keep_heaviest(&mut paths, MAX_DRAWN, |path| path.weight);
     (paths, left_out)
+}
+
+/// Keeps those that weigh most, of equal ones the first, in their order; gives how many were dropped.
+fn keep_heaviest<T>(all: &mut Vec<T>, most: usize, weight: impl Fn(&T) -> f32) -> usize {
+    let before = all.len();
+    if before > most {
+        let mut order: Vec<usize> = (0..before).collect();
+        order.sort_by(|&a, &b| weight(&all[b]).total_cmp(&weight(&all[a])));
+        let mut kept = vec![false; before];
+        for &index in &order[..most] {
+            kept[index] = true;
+        }
+        let mut kept = kept.into_iter();
+        all.retain(|_| kept.next() == Some(true));
+    }
+    before - all.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::keep_heaviest;
+
+    #[test]
+    fn the_heaviest_are_kept_in_their_order_and_equal_ones_too() {
+        let kept = |weights: &[f32], most| {
+            let mut all: Vec<_> = weights.iter().copied().enumerate().collect();
+            let dropped = keep_heaviest(&mut all, most, |one| one.1);
+            let indices: Vec<_> = all.into_iter().map(|(index, _)| index).collect();
+            (indices, dropped)
+        };
+        assert_eq!(kept(&[1.0; 5], 2), (vec![0, 1], 3));
+        assert_eq!(kept(&[1.0, 3.0, 1.0, 2.0, 1.0], 3), (vec![0, 1, 3], 2));
+        assert_eq!(kept(&[1.0, 2.0], 2), (vec![0, 1], 0));
+        assert_eq!(kept(&[], 2), (vec![], 0));
+    }
 }

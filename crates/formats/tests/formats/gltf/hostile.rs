@@ -60,6 +60,66 @@ fn the_document_is_read_when_nothing_is_changed() {
     assert!(file.scene.camera.is_some());
 }
 
+/// Nodes that each place a mesh of which nothing is shown 200,000 times, by an accessor without bytes.
+#[test]
+fn placements_of_nothing_are_charged_too() {
+    let spread = r#"{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing":
+        {"attributes": {"TRANSLATION": 1}}}}"#;
+    let flat = spread.replace(r#""mesh""#, r#""scale": [0, 0, 0], "mesh""#);
+    let lines = r#"{"attributes": {"POSITION": 0}, "mode": 1}"#;
+    for (node, primitives, count) in [
+        (spread, "", 200_000),
+        (spread, r#"{"attributes": {}}"#, 100_000),
+        (spread, lines, 100_000),
+        (&flat, lines, 100_000),
+    ] {
+        let nodes = vec![node; 700].join(",");
+        let mut doc = Doc::new(&format!(
+            r#""nodes": [{nodes}], "meshes": [{{"primitives": [{primitives}]}}]"#
+        ));
+        doc.floats(&[0.0; 9], "VEC3");
+        doc.raw_accessor(&format!(
+            r#""componentType": 5126, "count": {count}, "type": "VEC3""#
+        ));
+        let error = doc.error();
+        assert!(
+            error.contains("more than a file of this size is trusted with"),
+            "{error}"
+        );
+    }
+}
+
+/// Files of many gigabytes without content: to read them whole would take too long.
+#[cfg(unix)]
+#[test]
+fn files_are_read_as_far_as_they_are_needed() {
+    use crate::Folder;
+    use ombra_formats::read_gltf;
+
+    let mut doc = Doc::triangle(r#", "material": 0"#, "");
+    doc.rest += r#", "materials": [{"emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1]}],
+        "textures": [{"source": 0}], "images": [{"uri": "a.png"}]"#;
+    let (text, buffer) = doc.gltf_beside("a.bin");
+    let folder = Folder::with(&[("a.gltf", text.as_bytes()), ("a.bin", buffer)]);
+    let lengthen = |name| {
+        let path = folder.path(name);
+        let mut options = std::fs::File::options();
+        let file = options.append(true).create(true).open(path).unwrap();
+        file.set_len(1 << 36).unwrap();
+    };
+    let limits = Limits {
+        image_pixels: 4,
+        ..Limits::default()
+    };
+    let read = || read_gltf(folder.path("a.gltf"), TriangleTest::default(), &limits);
+    lengthen("a.bin");
+    assert_eq!(read().unwrap().info.triangles, 1);
+    lengthen("a.png");
+    let error = read().unwrap_err().to_string();
+    let said = r#"images[0].uri: "a.png" has more than 16777248 bytes"#;
+    assert!(error.contains(said), "{error}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
 

@@ -323,6 +323,11 @@ fn numbers_out_of_range_and_textures_that_are_not_there_are_named() {
             "materials[0].emissiveFactor: is [1.0, -1.0, 0.0];",
         ),
         (
+            r#"{"emissiveFactor": [1e30, 0, 0], "extensions":
+                {"KHR_materials_emissive_strength": {"emissiveStrength": 1e30}}}"#,
+            "materials[0].emissiveFactor: is [1e30, 0.0, 0.0], which times the emissiveStrength",
+        ),
+        (
             r#"{"alphaMode": "MASK", "alphaCutoff": -1}"#,
             "materials[0].alphaCutoff: is -1;",
         ),

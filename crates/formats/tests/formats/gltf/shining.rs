@@ -148,6 +148,19 @@ fn what_shines_lights_a_file_without_lights() {
 }
 
 #[test]
+fn a_lamp_lets_no_light_through_and_has_a_finite_one() {
+    let lamp = r#", "materials": [{"emissiveFactor": [1e30, 1, 1], "extensions":
+        {"KHR_materials_transmission": {"transmissionFactor": 0.5}}}]"#;
+    let mut doc = Doc::triangle(r#", "material": 0"#, lamp);
+    assert!(doc.read().scene.materials[0].is_light_source());
+    let large = r#"[{"mesh": 0, "scale": [1e9, 1e9, 1]}]"#;
+    doc.rest = doc.rest.replace(r#"[{"mesh": 0}]"#, large);
+    let error = doc.error();
+    let said = "materials[0].emissiveFactor: [1e30, 1.0, 1.0] over the area of";
+    assert!(error.starts_with(said), "{error}");
+}
+
+#[test]
 fn lights_that_are_none_are_named() {
     for (light, said) in [
         (
@@ -157,6 +170,10 @@ fn lights_that_are_none_are_named() {
         (
             r#"{"type": "point", "intensity": -1}"#,
             "extensions.KHR_lights_punctual.lights[0].intensity: is -1;",
+        ),
+        (
+            r#"{"type": "point", "color": [1e30, 0, 0], "intensity": 1e30}"#,
+            "extensions.KHR_lights_punctual.lights[0].intensity: is 1",
         ),
         (
             r#"{"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}}"#,

@@ -11,8 +11,9 @@ use crate::sampler::Dimension;
 use crate::shading::{self, Side};
 
 impl<O: Observer> Whitted<'_, O> {
-    /// The ambient part, and what is scattered of each light that is not in the shade. Lights of which
-    /// all together less would arrive at the pixel than makes a ray worth tracing are not asked.
+    /// The ambient part, and what is scattered of each light that is not in the shade. A light is not
+    /// asked if of all lights together a smaller share would arrive at the pixel than makes a ray worth
+    /// tracing.
     pub(super) fn local(
         &self,
         cx: &mut Context<'_, Self>,
@@ -28,35 +29,36 @@ impl<O: Observer> Whitted<'_, O> {
         if diffuse.is_black() && material.specular.is_black() {
             return Ok(radiance);
         }
-        // What all lights together may bring without being asked for.
+        // The share of what arrives of a light below which it is not asked: of all of them together too
+        // little would come to the pixel.
         let least = self.least_importance / (traced.importance * scene.lights.len() as f32);
-        let least = least.max(f32::MIN_POSITIVE);
         for (index, light) in scene.lights.iter().enumerate() {
             let xi = || traced.pair(Dimension::Light, index);
             let Some(light) = light.sample_li(place.point, xi) else {
                 self.observer.tell(|| unlit(index, LightWay::OutOfReach));
                 continue;
             };
-            let scattered = shading::scattered(material, diffuse, side, place.wo, &light);
-            let matters = scattered.max_component() >= least;
-            if matters {
+            let Some([diffuse, specular]) =
+                shading::terms(material, diffuse, side, place.wo, &light)
+            else {
+                self.observer.tell(|| unlit(index, LightWay::Behind));
+                continue;
+            };
+            let share = diffuse + specular;
+            let scattered = share * light.incident;
+            let way = if scattered.is_black() {
+                Some(LightWay::NothingScattered)
+            } else if share.max_component() < least {
+                Some(LightWay::Unimportant)
+            } else {
                 radiance += scattered * self.unshadowed(cx, place, index, &light, scattered)?;
-            }
-            self.observer.tell(|| {
-                let Some(terms) = shading::terms(material, diffuse, side, place.wo, &light) else {
-                    return unlit(index, LightWay::Behind);
-                };
-                let [diffuse, specular] = terms.map(|term| term * light.incident);
-                Event::Light {
-                    light: index,
-                    diffuse,
-                    specular,
-                    way: (!matters).then_some(if scattered.is_black() {
-                        LightWay::NothingScattered
-                    } else {
-                        LightWay::Unimportant
-                    }),
-                }
+                None
+            };
+            self.observer.tell(|| Event::Light {
+                light: index,
+                diffuse: diffuse * light.incident,
+                specular: specular * light.incident,
+                way,
             });
         }
         Ok(radiance)

@@ -28,7 +28,8 @@ use shadow::{Shade, Shadow};
 ///   direction, and what is seen through the surface, the last two by a ray with one step more.
 ///
 /// A ray of whose light less than a thousandth arrives at the pixel (unless the settings say
-/// otherwise) is taken to see what is seen beyond the last step, like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image Synthesis", IEEE
+/// otherwise) is treated like one beyond the last step: Hall, Greenberg, "A Testbed for Realistic Image
+/// Synthesis", IEEE
 /// Computer Graphics and Applications 3(8), 1983. In glass every ray becomes two, so without this the
 /// number of rays doubles with every step. With it, where surfaces are grey and pass on no more light
 /// than arrives (reflection + transmission ≤ 1), the rays of one step have shares that add up to no

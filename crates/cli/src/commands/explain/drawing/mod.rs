@@ -9,9 +9,9 @@ mod svg;
 mod view;
 
 use ombra::geometry::{Aabb, Point3, Vector3};
-use ombra::render::explain::SampleTree;
 use ombra::scene::{Light, Scene};
 
+use super::Kept;
 use super::document::Heading;
 use super::path::{Path, paths};
 use super::solid::Solids;
@@ -33,13 +33,13 @@ const HEIGHT: [f64; 2] = [120.0, 560.0];
 pub(crate) struct Drawing<'a> {
     pub(crate) heading: &'a Heading,
     pub(crate) scene: &'a Scene,
-    pub(crate) samples: &'a [SampleTree],
+    pub(crate) kept: &'a Kept,
 }
 
 impl Drawing<'_> {
     /// The drawing as SVG.
     pub(crate) fn svg(&self) -> String {
-        let (paths, left_out) = paths(self.samples);
+        let (paths, left_out) = paths(&self.kept.samples);
         let ray = paths
             .first()
             .map_or(Vector3::new(0.0, 0.0, -1.0), |path| path.along);
@@ -48,8 +48,7 @@ impl Drawing<'_> {
         let legend_top = section.corner[1] + section.size[1] + 18.0;
 
         let mut svg = Svg::new(WIDTH, legend_top + legend::HEIGHT);
-        let sent: usize = self.samples.iter().map(|sample| sample.rays.len()).sum();
-        self.title(&mut svg, sent, paths.len(), left_out);
+        self.title(&mut svg, paths.len(), left_out);
         let eye = paths
             .first()
             .map_or(Point3::new(0.0, 0.0, 0.0), |path| path.from);
@@ -70,7 +69,7 @@ impl Drawing<'_> {
         svg.finish()
     }
 
-    fn title(&self, svg: &mut Svg, all: usize, drawn: usize, left_out: usize) {
+    fn title(&self, svg: &mut Svg, drawn: usize, left_out: usize) {
         let Heading {
             scene,
             width,
@@ -81,8 +80,9 @@ impl Drawing<'_> {
         } = self.heading;
         let text = format!("{scene}: the rays of pixel {x},{y} of {width}x{height} ({integrator})");
         svg.text([MARGIN, 28.0], &text, "class=\"title\"");
+        let all = self.kept.rays + self.kept.left_out.1;
         let mut below = format!("{drawn} of {all} rays drawn");
-        let not_sent = all - drawn - left_out;
+        let not_sent = self.kept.rays - drawn - left_out;
         if not_sent > 0 {
             let were = if not_sent == 1 { "was" } else { "were" };
             below +=
@@ -90,6 +90,9 @@ impl Drawing<'_> {
         }
         if left_out > 0 {
             below += &format!("; {left_out} that count least are left out");
+        }
+        if let Some(notice) = self.kept.notice() {
+            below += &format!("; so are {notice}");
         }
         svg.text([MARGIN, 46.0], &below, "class=\"small\"");
     }
@@ -181,7 +184,7 @@ impl Drawing<'_> {
     }
 
     fn objects_met(&self) -> impl Iterator<Item = usize> {
-        let rays = self.samples.iter().flat_map(|sample| &sample.rays);
+        let rays = self.kept.samples.iter().flat_map(|sample| &sample.rays);
         rays.flat_map(|ray| {
             let met = ray.met.iter().map(|place| place.hit.instance.index());
             met.chain(ray.crossed.iter().map(|one| one.hit.instance.index()))
