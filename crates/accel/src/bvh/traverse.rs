@@ -21,8 +21,12 @@ impl Layout {
         };
         let slabs = Slabs::new(ray);
         let mut t_max = slabs.limit(visitor.t_max());
-        // The box of the root is not tested: those of its children are, and together they are as large.
         visitor.node();
+        // If the root has children its own box need not be tested: theirs together are as large.
+        let alone = root.is_leaf().then(|| Siblings::new([*root; 2]));
+        if alone.is_some_and(|root| !slabs.entries(&root, t_max).entered[0]) {
+            return ControlFlow::Continue(());
+        }
         // One node may wait at each level.
         let mut waiting = ArrayVec::<Waiting, MAX_DEPTH>::new();
         let mut next = Some((root.first, root.count));
