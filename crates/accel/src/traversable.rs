@@ -44,6 +44,29 @@ pub trait Traversable: Send + Sync {
             .is_some()
     }
 
+    /// The closest hit of each of many rays, in their order: what [`intersect`](Self::intersect)
+    /// says of each, to the bit, and sooner.
+    ///
+    /// # Panics
+    /// When there are not as many places for hits as rays.
+    fn intersect_many(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        assert_eq!(rays.len(), hits.len(), "one place for a hit for each ray");
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.intersect(ray);
+        }
+    }
+
+    /// Whether there is any hit, of each of many rays, in their order.
+    ///
+    /// # Panics
+    /// When there are not as many places for answers as rays.
+    fn occluded_many(&self, rays: &[Ray], occluded: &mut [bool]) {
+        assert_eq!(rays.len(), occluded.len(), "one answer for each ray");
+        for (ray, occluded) in rays.iter().zip(occluded) {
+            *occluded = self.occluded(ray);
+        }
+    }
+
     /// The closest of those hits that `any_hit` accepts.
     #[inline]
     fn trace(&self, ray: &Ray, any_hit: &mut dyn FnMut(&Hit) -> AnyHit) -> Option<Hit> {
