@@ -1,8 +1,9 @@
 //! A structure over primitives: what answers queries.
 
-use ombra_geometry::{Aabb, EdgeRule, Ray};
+use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 use rayon::prelude::*;
 
+use crate::bvh8::{Bvh8, Item};
 use crate::search::Search;
 use crate::{
     AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, Statistics,
@@ -50,7 +51,14 @@ impl<P: Primitives> Accel<P> {
             finite
         });
         let reach = Reach::of(&bounds);
-        let structure = kind.build(&bounded, &reach);
+        let structure = match kind {
+            StructureKind::Bvh8 => {
+                let item = |own: &Bounded| Item::new(&own.bounds, own.primitive);
+                let items = bounded.iter().map(item).collect();
+                AnyStructure::Bvh8(Bvh8::new(items, &reach, primitives.watertight()))
+            }
+            _ => kind.build(&bounded, &reach),
+        };
         if !unbounded.is_empty() {
             bounds = Aabb::UNBOUNDED;
         }
@@ -107,6 +115,28 @@ impl<P: Primitives> Traversable for Accel<P> {
             None => self.search_with(ray, rule, &mut (), any_hit),
             Some(statistics) => self.search_with(ray, rule, statistics, any_hit),
         }
+    }
+
+    fn intersect(&self, ray: &Ray<f32>) -> Option<Hit> {
+        if let AnyStructure::Bvh8(bvh) = &self.structure
+            && let Some(closest) = bvh.tree.closest(ray)
+        {
+            return closest.map(|candidate| candidate.hit());
+        }
+        let mut accept = |_: &Candidate| AnyHit::Accept;
+        self.search(&(*ray).into(), EdgeRule::Closed, None, &mut accept)
+            .map(|candidate| candidate.hit())
+    }
+
+    fn occluded(&self, ray: &Ray<f32>) -> bool {
+        if let AnyStructure::Bvh8(bvh) = &self.structure
+            && let Some(occluded) = bvh.tree.any(ray)
+        {
+            return occluded;
+        }
+        let mut terminate = |_: &Candidate| AnyHit::Terminate;
+        self.search(&(*ray).into(), EdgeRule::Closed, None, &mut terminate)
+            .is_some()
     }
 
     fn bounds(&self) -> Aabb {

@@ -29,6 +29,7 @@
 //! counts is found, whichever way one looks. The bound is in [`TraversalRay`], the only place.
 
 pub mod bvh;
+pub mod bvh8;
 
 mod accel;
 mod alias;

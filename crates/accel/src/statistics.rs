@@ -5,6 +5,8 @@ use std::ops::AddAssign;
 
 /// Counts the steps of a traversal. `()` counts nothing and costs nothing.
 pub trait Counter {
+    /// Whether anything is counted.
+    const COUNTS: bool;
     /// A node was visited.
     fn node(&mut self);
     /// A primitive was tested.
@@ -12,6 +14,7 @@ pub trait Counter {
 }
 
 impl Counter for () {
+    const COUNTS: bool = false;
     #[inline]
     fn node(&mut self) {}
     #[inline]
@@ -28,6 +31,7 @@ pub struct Statistics {
 }
 
 impl Counter for Statistics {
+    const COUNTS: bool = true;
     #[inline]
     fn node(&mut self) {
         self.nodes_visited += 1;

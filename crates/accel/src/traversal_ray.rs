@@ -93,6 +93,21 @@ impl Reach {
         HIT_PAD_LIMIT * self.extent
     }
 
+    /// The largest edge of the bounds.
+    pub(crate) const fn extent(&self) -> f64 {
+        self.extent
+    }
+
+    /// The largest coordinate of the bounds.
+    pub(crate) const fn coordinate(&self) -> f64 {
+        self.coordinate
+    }
+
+    /// Whether the size is one for which products of singles neither over- nor underflow.
+    pub(crate) fn is_single(&self) -> bool {
+        (1e-7..=1e10).contains(&self.extent)
+    }
+
     /// Whether a point is so far away that the structure is small from there.
     #[inline]
     fn is_far_from(&self, point: Point3<f64>) -> bool {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use ombra_geometry::triangle::PreparedTriangleTest;
-use ombra_geometry::{Aabb, EdgeRule};
+use ombra_geometry::{Aabb, EdgeRule, TriangleMesh};
 
 use super::{AnyHit, Candidate, Mesh, Primitives, Shapes};
 use crate::{Counter, TraversalRay};
@@ -68,6 +68,13 @@ impl Primitives for Geometry {
         match self {
             Self::Mesh(mesh) => mesh.bytes(),
             Self::Shapes(shapes) => shapes.bytes(),
+        }
+    }
+
+    fn watertight(&self) -> Option<&TriangleMesh> {
+        match self {
+            Self::Mesh(mesh) => mesh.watertight(),
+            Self::Shapes(_) => None,
         }
     }
 

@@ -78,4 +78,8 @@ impl Primitives for Mesh {
     fn bytes(&self) -> usize {
         self.mesh.bytes()
     }
+
+    fn watertight(&self) -> Option<&TriangleMesh> {
+        (self.test == TriangleTest::Watertight).then_some(&*self.mesh)
+    }
 }

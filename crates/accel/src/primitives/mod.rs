@@ -7,7 +7,9 @@ mod shapes;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-use ombra_geometry::{Aabb, Crossing, EdgeRule, GeometryId, Hit, InstanceId, PrimitiveId};
+use ombra_geometry::{
+    Aabb, Crossing, EdgeRule, GeometryId, Hit, InstanceId, PrimitiveId, TriangleMesh,
+};
 
 use crate::{Counter, TraversalRay};
 
@@ -51,6 +53,11 @@ pub trait Primitives: Send + Sync {
 
     /// Bytes held on the heap, structures of a lower level included.
     fn bytes(&self) -> usize;
+
+    /// The triangles, if that is what these are and they are tested by the watertight test.
+    fn watertight(&self) -> Option<&TriangleMesh> {
+        None
+    }
 
     /// The same list where its primitives need nothing worked out for a ray, so that a level above
     /// may test them itself.

@@ -48,11 +48,38 @@ impl<T: Real> TriangleKernel<T> for Watertight<T> {
 
     #[inline]
     fn crossing(&self, ray: &Ray<T>, corners: [Point3<T>; 3], rule: EdgeRule) -> Option<Crossing> {
-        let [a, b, c] = corners.map(|corner| self.sheared(corner - ray.origin));
+        let corners = corners.map(|corner| self.sheared(corner - ray.origin));
+        let [a, b, c] = corners;
         if on_both_sides([edge(c, b), edge(a, c), edge(b, a)]) {
             return None;
         }
-        let [a, b, c] = [a, b, c].map(Vector3::wide);
+        self.decide(corners, rule)
+            .filter(|crossing| in_range(ray, crossing.t))
+    }
+}
+
+impl<T: Real> Watertight<T> {
+    /// The axes that take the places of x, y and z in the space where the ray is the z axis.
+    #[must_use]
+    #[inline]
+    pub const fn axes(&self) -> [Axis; 3] {
+        [self.kx, self.ky, self.kz]
+    }
+
+    /// How far x and y are sheared for each unit of z, and what t is for each unit of z.
+    #[must_use]
+    #[inline]
+    pub const fn shear(&self) -> Vector3<T> {
+        self.shear
+    }
+
+    /// The second half of the test, for a triangle that the first half did not turn away: its
+    /// corners relative to the origin of the ray and sheared. Whether the crossing is in the ray's
+    /// range is not asked.
+    #[must_use]
+    #[inline]
+    pub fn decide(&self, corners: [Vector3<T>; 3], rule: EdgeRule) -> Option<Crossing> {
+        let [a, b, c] = corners.map(Vector3::wide);
         let (u, v, w) = (edge_exact(c, b), edge_exact(a, c), edge_exact(b, a));
         if on_both_sides([u, v, w]) {
             return None;
@@ -69,17 +96,17 @@ impl<T: Real> TriangleKernel<T> for Watertight<T> {
                 return None;
             }
         }
-        let z = (u / det) * a.z + (v / det) * b.z + (w / det) * c.z;
-        let t = T::of(z * self.shear.z.wide());
-        in_range(ray, t).then(|| Crossing {
-            t: t.wide(),
-            u: (v / det) as f32,
-            v: (w / det) as f32,
+        // The weights first: their sum is 1, and products with them leave no number range.
+        let inverse = 1.0 / det;
+        let (u, v, w) = (u * inverse, v * inverse, w * inverse);
+        let z = u * a.z + v * b.z + w * c.z;
+        Some(Crossing {
+            t: T::of(z * self.shear.z.wide()).wide(),
+            u: v as f32,
+            v: w as f32,
         })
     }
-}
 
-impl<T: Real> Watertight<T> {
     /// A corner, relative to the origin of the ray, in the space where the ray is the z axis. Its z
     /// is left unscaled.
     #[inline]
@@ -124,8 +151,8 @@ fn on_both_sides<T: Real>([u, v, w]: [T; 3]) -> bool {
 
 /// Whether the crossing counts for the ray. One at infinity, where products overflow, does not.
 #[inline]
-fn in_range<T: Real>(ray: &Ray<T>, t: T) -> bool {
-    ray.t_min <= t && t <= ray.t_max && t < T::infinity()
+fn in_range<T: Real>(ray: &Ray<T>, t: f64) -> bool {
+    ray.t_min.wide() <= t && t <= ray.t_max.wide() && t < f64::INFINITY
 }
 
 /// Whether a triangle owns its edge `from` → `to`: it points down, or to the left if it is level.

@@ -1,0 +1,54 @@
+//! From two children a node to eight.
+
+use super::build::BinaryTree;
+use super::node::{Child, Node, WIDTH};
+
+/// A wide tree whose leaves name lists of primitives.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct WideTree {
+    pub(crate) root: Child,
+    pub(crate) nodes: Vec<Node>,
+}
+
+/// Collapses a binary tree: a node takes in its children, then again and again the children of that
+/// one with the largest surface, until it has eight. Wald, Benthin, Boulos, "Getting Rid of Packets",
+/// IEEE Symposium on Interactive Ray Tracing 2008.
+pub(crate) fn collapse(binary: &BinaryTree) -> WideTree {
+    let mut nodes = Vec::with_capacity(binary.nodes.len() / 8 + 1);
+    let root = match binary.nodes.first() {
+        None => {
+            nodes.push(Node::EMPTY);
+            Child::node(0)
+        }
+        Some(_) => lay(binary, 0, &mut nodes),
+    };
+    WideTree { root, nodes }
+}
+
+/// Lays out what is below a node of the binary tree.
+fn lay(binary: &BinaryTree, index: usize, nodes: &mut Vec<Node>) -> Child {
+    let node = &binary.nodes[index];
+    if node.is_leaf() {
+        return Child::list(node.first_or_right as usize, node.count as usize);
+    }
+    let mut below = [0; WIDTH];
+    [below[0], below[1]] = binary.children(index);
+    let mut count = 2;
+    while count < WIDTH {
+        let opened = (0..count)
+            .filter(|&k| !binary.nodes[below[k]].is_leaf())
+            .map(|k| (binary.nodes[below[k]].bounds.half_area(), k))
+            .reduce(|a, b| if b.0 > a.0 { b } else { a });
+        let Some((_, k)) = opened else { break };
+        [below[k], below[count]] = binary.children(below[k]);
+        count += 1;
+    }
+    let place = nodes.len();
+    nodes.push(Node::EMPTY);
+    for (k, &child) in below[..count].iter().enumerate() {
+        let what = lay(binary, child, nodes);
+        nodes[place].set(k, &binary.nodes[child].bounds, what);
+    }
+    nodes[place].sort();
+    Child::node(place)
+}

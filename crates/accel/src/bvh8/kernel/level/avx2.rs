@@ -1,0 +1,142 @@
+//! The lanes with AVX2 and FMA.
+
+use std::arch::x86_64::{
+    __m256, __m256i, _CMP_LE_OQ, _mm_cvtsi64_si128, _mm256_cmp_ps, _mm256_cvtepu8_epi32,
+    _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_max_ps, _mm256_min_ps,
+    _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
+    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
+    _mm256_storeu_si256, _mm256_sub_ps,
+};
+
+use super::super::super::node::Child;
+use super::Lanes;
+
+/// A vector of 256 bits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(__m256);
+
+/// For each mask of eight bits the places of those that are set, a byte each, one after the other.
+const COMPRESSED: [u64; 256] = {
+    let mut table = [0; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut k, mut count) = (0, 0);
+        while k < 8 {
+            if mask >> k & 1 == 1 {
+                table[mask] |= (k as u64) << (8 * count);
+                count += 1;
+            }
+            k += 1;
+        }
+        mask += 1;
+    }
+    table
+};
+
+/// As lanes, the places of the bits that are set.
+#[inline(always)]
+unsafe fn compressed(mask: usize) -> __m256i {
+    // SAFETY: the caller's promise.
+    unsafe { _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(COMPRESSED[mask & 255] as i64)) }
+}
+
+/// Where each of eight fields of three bits begins.
+#[inline(always)]
+unsafe fn places(order: u32) -> __m256i {
+    // SAFETY: the caller's promise. Permutations look at the lowest three bits only.
+    unsafe {
+        let first = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+        _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), first)
+    }
+}
+
+impl Lanes for Avx2 {
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> Self {
+        // SAFETY: the caller's promise; so everywhere below.
+        Self(unsafe { _mm256_set1_ps(x) })
+    }
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_loadu_ps(from) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        // SAFETY: as above.
+        unsafe { _mm256_storeu_ps(to, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn minus(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn times(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add(self, factor: Self, addend: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, addend.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn smaller(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn larger(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn at_most(self, other: Self) -> u32 {
+        // SAFETY: as above.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        self,
+        far: Self,
+        order: u32,
+        children: *const Child,
+        to: *mut Child,
+        entries: *mut f32,
+    ) -> usize {
+        // SAFETY: as above.
+        unsafe {
+            let places = places(order);
+            let near = _mm256_permutevar8x32_ps(self.0, places);
+            let far = _mm256_permutevar8x32_ps(far.0, places);
+            let children = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(children.cast()), places);
+            let entered = Self(near).at_most(Self(far)) as usize;
+            let kept = compressed(entered);
+            _mm256_storeu_ps(entries, _mm256_permutevar8x32_ps(near, kept));
+            _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(children, kept));
+            entered.count_ones() as usize
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize {
+        // SAFETY: as above.
+        unsafe {
+            let entered = self.at_most(far) as usize;
+            let children = _mm256_loadu_si256(children.cast());
+            let kept = compressed(entered);
+            _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(children, kept));
+            entered.count_ones() as usize
+        }
+    }
+}

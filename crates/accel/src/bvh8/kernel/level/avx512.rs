@@ -1,0 +1,118 @@
+//! The lanes with AVX-512 on vectors of 256 bits.
+//!
+//! Not on 512: a node has eight children and a leaf eight triangles at most, and two of either at a
+//! time are seldom wanted.
+
+use std::arch::x86_64::{
+    __m256, __m256i, _CMP_LE_OQ, _mm256_cmp_ps_mask, _mm256_fmadd_ps, _mm256_loadu_ps,
+    _mm256_loadu_si256, _mm256_maskz_compress_epi32, _mm256_maskz_compress_ps, _mm256_max_ps,
+    _mm256_min_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
+    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
+    _mm256_storeu_si256, _mm256_sub_ps,
+};
+
+use super::super::super::node::Child;
+use super::Lanes;
+
+/// A vector of 256 bits, compared into mask registers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512(__m256);
+
+/// Where each of eight fields of three bits begins.
+#[inline(always)]
+pub(super) unsafe fn places(order: u32) -> __m256i {
+    // SAFETY: the caller's promise. Permutations look at the lowest three bits only.
+    unsafe {
+        let first = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+        _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), first)
+    }
+}
+
+impl Lanes for Avx512 {
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> Self {
+        // SAFETY: the caller's promise; so everywhere below.
+        Self(unsafe { _mm256_set1_ps(x) })
+    }
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_loadu_ps(from) })
+    }
+
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        // SAFETY: as above.
+        unsafe { _mm256_storeu_ps(to, self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn minus(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_sub_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn times(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add(self, factor: Self, addend: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_fmadd_ps(self.0, factor.0, addend.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn smaller(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn larger(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn at_most(self, other: Self) -> u32 {
+        // SAFETY: as above.
+        u32::from(unsafe { _mm256_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        self,
+        far: Self,
+        order: u32,
+        children: *const Child,
+        to: *mut Child,
+        entries: *mut f32,
+    ) -> usize {
+        // SAFETY: as above.
+        unsafe {
+            let places = places(order);
+            let near = _mm256_permutevar8x32_ps(self.0, places);
+            let far = _mm256_permutevar8x32_ps(far.0, places);
+            let children = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(children.cast()), places);
+            let entered = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
+            _mm256_storeu_ps(entries, _mm256_maskz_compress_ps(entered, near));
+            _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(entered, children));
+            entered.count_ones() as usize
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize {
+        // SAFETY: as above.
+        unsafe {
+            let entered = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(self.0, far.0);
+            let children = _mm256_loadu_si256(children.cast());
+            _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(entered, children));
+            entered.count_ones() as usize
+        }
+    }
+}

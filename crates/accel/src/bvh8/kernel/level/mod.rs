@@ -1,0 +1,139 @@
+//! Eight numbers that go through the same operations, at each level of instructions.
+//!
+//! A kernel is written once over [`Lanes`]; an entry point a level compiles it with the level's
+//! instructions. Which level a machine has is found out once ([`Level::detect`]).
+
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+
+use super::super::node::Child;
+
+pub(crate) use portable::Portable;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use {avx2::Avx2, avx512::Avx512};
+
+/// Eight single-precision numbers, and what a walk does with them: no more than is in use.
+///
+/// All levels give the same results to the bit but for [`multiply_add`](Self::multiply_add).
+pub(crate) trait Lanes: Copy {
+    /// Eight times the same.
+    ///
+    /// # Safety
+    /// - The processor has the level's instructions; so for all functions here.
+    unsafe fn splat(x: f32) -> Self;
+
+    /// From memory.
+    ///
+    /// # Safety
+    /// - Eight numbers may be read at `from`.
+    unsafe fn load(from: *const f32) -> Self;
+
+    /// To memory.
+    ///
+    /// # Safety
+    /// - Eight numbers may be written at `to`.
+    unsafe fn store(self, to: *mut f32);
+
+    /// `self − other`.
+    ///
+    /// # Safety
+    /// - See [`splat`](Self::splat); so below.
+    unsafe fn minus(self, other: Self) -> Self;
+
+    /// `self · other`.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn times(self, other: Self) -> Self;
+
+    /// `self · factor + addend`, rounded once or twice.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn multiply_add(self, factor: Self, addend: Self) -> Self;
+
+    /// The smaller of each two; `other`'s where one is NaN or they are equal.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn smaller(self, other: Self) -> Self;
+
+    /// The larger of each two; `other`'s where one is NaN or they are equal.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn larger(self, other: Self) -> Self;
+
+    /// Bit k: whether number k is not above the other one's; no where one is NaN.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn at_most(self, other: Self) -> u32;
+
+    /// Writes the children `k` with `self[k] <= far[k]` and those numbers of `self`, one after the
+    /// other in the given [order](super::super::node::Node::order), and counts them.
+    ///
+    /// # Safety
+    /// - Eight may be read at `children` and written at `to` and at `entries`.
+    unsafe fn push(
+        self,
+        far: Self,
+        order: u32,
+        children: *const Child,
+        to: *mut Child,
+        entries: *mut f32,
+    ) -> usize;
+
+    /// The same in the order in which they lie, without the numbers.
+    ///
+    /// # Safety
+    /// - Eight may be read at `children` and written at `to`.
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize;
+}
+
+/// A level of instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Level {
+    /// What every processor has.
+    Scalar,
+    /// x86-64 with AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// x86-64 with AVX-512 F, VL, BW and DQ, and AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Level {
+    /// The best that this machine has.
+    #[must_use]
+    pub fn detect() -> Self {
+        *Self::available().last().unwrap_or(&Self::Scalar)
+    }
+
+    /// All that this machine has, the best one last.
+    #[must_use]
+    pub fn available() -> Vec<Self> {
+        let mut levels = vec![Self::Scalar];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            if avx2 {
+                levels.push(Self::Avx2);
+            }
+            if avx2
+                && is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512bw")
+                && is_x86_feature_detected!("avx512dq")
+            {
+                levels.push(Self::Avx512);
+            }
+        }
+        levels
+    }
+}

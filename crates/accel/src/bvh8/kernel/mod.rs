@@ -1,0 +1,16 @@
+//! The kernels: ray against tree of triangles, in single precision, at each level of instructions.
+#![expect(
+    unsafe_code,
+    reason = "vector instructions, and reads without a check of what a tree is known to hold"
+)]
+
+mod dispatch;
+mod level;
+mod ray;
+mod walk;
+
+pub use level::Level;
+
+pub(super) use dispatch::{any, closest};
+pub(super) use ray::{Near, SingleRay};
+pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree};

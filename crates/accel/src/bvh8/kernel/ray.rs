@@ -1,0 +1,126 @@
+//! A ray made ready for the kernels, in single precision.
+//!
+//! # Why no box is missed
+//! A hit counts if its point lies in its primitive's box padded by the `hit_pad` of
+//! [`traversal_ray`](crate::TraversalRay). A kernel must not miss such a box. With F the distance
+//! from the origin o to the farthest corner of the structure, ε the precision of singles and m the
+//! largest component of the direction d:
+//!
+//! 1. `hit_pad` is 12 ε F at most. The t of a hit is rounded: half of ε F.
+//! 2. A component of d below 2⁻³⁰ m is taken as ± 2⁻³⁰ m. Along the part of the ray that lies in the
+//!    structure that moves it by less than 2⁻²⁹ F.
+//! 3. Where a ray meets a plane p is computed as p i + k, with i = 1/d rounded and k = − (o ± pad) i
+//!    rounded. Rounding i moves the plane by half of ε F (both terms alike), rounding o ± pad by
+//!    half of ε (|o| + pad), rounding k by as much, and rounding the sum by half of ε F; if a level
+//!    has no fused multiply-add, rounding the product by half of ε |p| besides. Since |p| is at most
+//!    |o| + F, that is below 3 ε (|o| + F) in all.
+//!
+//! So a pad of 16 ε F + 4 ε (|o| + F) is enough. It is computed rounded up: `PAD` and `PAD_AT`.
+
+use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
+use ombra_geometry::{Point3, Ray};
+
+use crate::Reach;
+
+/// The pad for each unit of the distance to the farthest corner.
+const PAD: f32 = 21.0 * f32::EPSILON;
+/// The pad for each unit of the largest coordinate of the origin.
+const PAD_AT: f32 = 5.0 * f32::EPSILON;
+/// A component of the direction counts as at least this part of the largest one.
+const LEAST: f32 = 1.0 / (1 << 30) as f32;
+
+/// A structure as the making of rays sees it: what [`Reach`] says, in single precision and safely
+/// on the side of "no".
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Near {
+    centre: [f32; 3],
+    /// No corner is further from the centre than this.
+    half: f32,
+    /// A ray from up to here is near; negative if none is.
+    limit: f32,
+}
+
+/// Coordinates beyond this are left to double precision: squares of what is computed with them may
+/// leave the number range.
+const LARGEST: f64 = 1e15;
+
+impl Near {
+    pub(crate) fn new(reach: &Reach) -> Self {
+        let (bounds, extent) = (reach.bounds(), reach.extent());
+        let usable = reach.is_single() && reach.coordinate() <= LARGEST;
+        let centre = bounds.centre();
+        let rounding = 2.0 * f64::from(f32::EPSILON) * reach.coordinate();
+        Self {
+            centre: [centre.x as f32, centre.y as f32, centre.z as f32],
+            half: (0.5001 * extent + rounding) as f32,
+            // What is far is decided in double precision: 16 extents from the centre.
+            limit: if usable {
+                (15.9 * extent - 8.0 * rounding) as f32
+            } else {
+                -1.0
+            },
+        }
+    }
+}
+
+/// A ray made ready.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SingleRay {
+    /// Where the ray meets plane p of an axis: p · `inverse` + `near`, or + `far` for the side where
+    /// it leaves a box.
+    pub(crate) inverse: [f32; 3],
+    pub(crate) near: [f32; 3],
+    pub(crate) far: [f32; 3],
+    /// Bit k: the direction's component k is negative.
+    pub(crate) octant: u32,
+    pub(crate) t_min: f32,
+    pub(crate) t_max: f32,
+    pub(crate) origin: Point3,
+    pub(crate) watertight: Watertight<f32>,
+}
+
+impl SingleRay {
+    /// `None` if the ray is not valid, or is to be traced in double precision.
+    #[inline(always)]
+    pub(crate) fn new(ray: &Ray, near: &Near) -> Option<Self> {
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let away: [f32; 3] = std::array::from_fn(|k| (origin[k] - near.centre[k]).abs());
+        let away = larger(larger(away[0], away[1]), away[2]);
+        let size = direction.map(f32::abs);
+        let unit = larger(larger(size[0], size[1]), size[2]);
+        // What has a NaN or an infinity makes the sum a NaN, or fails to be near.
+        let sum = ((origin[0] + origin[1]) + origin[2]) * 0.0 + (size[0] + size[1] + size[2]);
+        let plain = away <= near.limit
+            && (sum <= 3e10 && (1e-10..=1e10).contains(&unit))
+            && ray.t_min <= ray.t_max;
+        if !plain {
+            return None;
+        }
+        let at = origin.map(f32::abs);
+        let at = larger(larger(at[0], at[1]), at[2]);
+        let pad = PAD * (away + near.half) + PAD_AT * at + f32::MIN_POSITIVE;
+        let least = LEAST * unit;
+        let mut octant = 0;
+        let mut ready = Self {
+            inverse: [0.0; 3],
+            near: [0.0; 3],
+            far: [0.0; 3],
+            octant: 0,
+            t_min: ray.t_min,
+            t_max: ray.t_max,
+            origin: ray.origin,
+            watertight: Watertight::new(ray),
+        };
+        for k in 0..3 {
+            let inverse = 1.0 / larger(size[k], least).copysign(direction[k]);
+            let pad = pad.copysign(direction[k]);
+            ready.inverse[k] = inverse;
+            ready.near[k] = -(origin[k] + pad) * inverse;
+            ready.far[k] = -(origin[k] - pad) * inverse;
+            octant |= u32::from(direction[k].is_sign_negative()) << k;
+        }
+        ready.octant = octant;
+        Some(ready)
+    }
+}

@@ -1,0 +1,165 @@
+//! The wide bounding volume hierarchy: eight boxes a node, eight triangles a leaf, tested at once.
+//!
+//! Made in steps, each a value of its own:
+//! 1. a builder cuts the list of primitives in two again and again, down to lists of at most eight
+//!    (`build`);
+//! 2. nodes take in what is below them until they have eight children (`collapse`, `node`);
+//! 3. if the primitives are triangles they are copied into the leaves (`quad`).
+//!
+//! Rays walk down it in one of two ways: a kernel for triangles in single precision at the best
+//! level of instructions that the machine has (`kernel`), and a plain walk for everything else (`traverse`): any primitive, and rays that are
+//! to be traced in double precision.
+
+mod build;
+mod collapse;
+mod kernel;
+mod node;
+mod quad;
+mod traverse;
+
+use std::marker::PhantomData;
+use std::ops::ControlFlow;
+
+use ombra_geometry::{Ray, TriangleMesh};
+
+use crate::{Bounded, Candidate, Reach, Structure, TraversalRay, Visitor};
+pub(crate) use build::item::Item;
+use collapse::WideTree;
+use kernel::{Found, Near, SingleRay, Tree};
+use node::Child;
+use quad::Quad;
+
+pub use kernel::Level;
+
+/// How much care a builder takes.
+pub trait Care: Clone + std::fmt::Debug + Send + Sync + 'static {}
+
+/// Cuts by the surface area heuristic.
+#[derive(Clone, Copy, Debug)]
+pub enum Balanced {}
+impl Care for Balanced {}
+
+/// A wide bounding volume hierarchy, built with the care `C`.
+#[derive(Clone, Debug)]
+pub struct Bvh8<C = Balanced> {
+    pub(crate) tree: Wide,
+    care: PhantomData<C>,
+}
+
+/// The tree itself, however it was built.
+#[derive(Clone, Debug)]
+pub(crate) struct Wide {
+    tree: WideTree,
+    leaves: Leaves,
+    near: Near,
+    level: Level,
+}
+
+/// What leaves hold.
+#[derive(Clone, Debug)]
+enum Leaves {
+    /// Primitives by number.
+    Lists(Vec<u32>),
+    /// Triangles.
+    Quads(Vec<Quad>),
+}
+
+impl<C: Care> Bvh8<C> {
+    /// Builds one over boxes that are finite and not empty; over triangles if there is a mesh.
+    pub(crate) fn new(items: Vec<Item>, reach: &Reach, mesh: Option<&TriangleMesh>) -> Self {
+        let mut items = items;
+        let binary = build::binned::build(&mut items);
+        let list: Vec<u32> = items.iter().map(Item::primitive).collect();
+        drop(items);
+        let mut tree = collapse::collapse(&binary);
+        drop(binary);
+        let leaves = match mesh {
+            None => Leaves::Lists(list),
+            Some(mesh) => Leaves::Quads(pack(&mut tree, &list, mesh)),
+        };
+        Self {
+            tree: Wide {
+                tree,
+                leaves,
+                near: Near::new(reach),
+                level: Level::detect(),
+            },
+            care: PhantomData,
+        }
+    }
+}
+
+/// Copies triangles into leaves.
+fn pack(tree: &mut WideTree, list: &[u32], mesh: &TriangleMesh) -> Vec<Quad> {
+    let mut quads = Vec::with_capacity(list.len() / 3 + 2);
+    let mut packed = |child: &mut Child| {
+        if child.is_leaf() {
+            let first = quads.len();
+            let eight = Quad::lay(&mut quads, mesh, &list[child.range()]);
+            *child = Child::triangles(first, eight);
+        }
+    };
+    packed(&mut tree.root);
+    tree.nodes.iter_mut().flat_map(|node| &mut node.child).for_each(packed);
+    quads
+}
+
+impl<C: Care> Structure for Bvh8<C> {
+    fn build(primitives: &[Bounded], reach: &Reach) -> Self {
+        let item = |own: &Bounded| Item::new(&own.bounds, own.primitive);
+        Self::new(primitives.iter().map(item).collect(), reach, None)
+    }
+
+    #[inline]
+    fn traverse<V: Visitor>(&self, ray: &TraversalRay, visitor: &mut V) -> ControlFlow<()> {
+        self.tree.traverse(ray, visitor)
+    }
+
+    fn bytes(&self) -> usize {
+        let leaves = match &self.tree.leaves {
+            Leaves::Lists(list) => size_of_val(list.as_slice()),
+            Leaves::Quads(quads) => size_of_val(quads.as_slice()),
+        };
+        size_of_val(self.tree.tree.nodes.as_slice()) + leaves
+    }
+}
+
+impl Wide {
+    /// The parts that the kernels need, if leaves hold triangles.
+    #[inline(always)]
+    fn triangles(&self) -> Option<Tree<'_>> {
+        match &self.leaves {
+            Leaves::Lists(_) => None,
+            Leaves::Quads(quads) => Some(Tree {
+                root: self.tree.root,
+                nodes: &self.tree.nodes,
+                quads,
+            }),
+        }
+    }
+
+    /// The closest hit; `None` if this ray is not for the kernels.
+    #[inline]
+    pub(crate) fn closest(&self, ray: &Ray) -> Option<Option<Candidate>> {
+        let tree = self.triangles()?;
+        let ray = SingleRay::new(ray, &self.near)?;
+        let found = kernel::closest(self.level, &tree, &ray);
+        Some(found.map(Found::candidate))
+    }
+
+    /// Whether there is a hit; `None` if this ray is not for the kernels.
+    #[inline]
+    pub(crate) fn any(&self, ray: &Ray) -> Option<bool> {
+        let tree = self.triangles()?;
+        let ray = SingleRay::new(ray, &self.near)?;
+        Some(kernel::any(self.level, &tree, &ray))
+    }
+}
+
+impl Found {
+    /// As others see it.
+    #[inline]
+    fn candidate(self) -> Candidate {
+        Candidate::new(self.crossing, self.triangle)
+    }
+}

@@ -1,0 +1,153 @@
+//! The nodes, to the byte.
+
+use ombra_geometry::{Aabb, Point3};
+
+/// How many children a node has room for.
+pub(crate) const WIDTH: usize = 8;
+
+/// A node: the boxes of up to eight children, what each child is, and in which order a ray looks at
+/// them. All of it 32-bit numbers:
+///
+/// | bytes    | field    | holds                                                        |
+/// |----------|----------|--------------------------------------------------------------|
+/// | 0..96    | `lower`  | lowest x of the eight children, lowest y, lowest z           |
+/// | 96..192  | `upper`  | highest x of the eight children, highest y, highest z        |
+/// | 192..224 | `child`  | eight [`Child`]s                                             |
+/// | 224..256 | `order`  | by octant of the ray's direction: eight times three bits, the number of a child each; the last one is the nearest |
+///
+/// A place without a child has a box that no ray meets: from ∞ to −∞.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub(crate) struct Node {
+    pub(crate) lower: [[f32; WIDTH]; 3],
+    pub(crate) upper: [[f32; WIDTH]; 3],
+    pub(crate) child: [Child; WIDTH],
+    pub(crate) order: [u32; WIDTH],
+}
+
+const _: () = assert!(size_of::<Node>() == 256);
+
+/// What a child is: a node by its index, or a leaf. In 32 bits, from the highest:
+///
+/// | a node           | 0   | 31 bits: its index                                        |
+/// | a leaf of a list | 1   | 3 bits: how many primitives, less 1; 28 bits: the first   |
+/// | a leaf of triangles | 1 | 1 bit: whether it has eight places and not four; 30 bits: the index of its first [`Quad`](super::Quad) |
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub(crate) struct Child(pub(crate) u32);
+
+/// The most primitives in a leaf.
+pub(crate) const MAX_LEAF: usize = 8;
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    const EIGHT: u32 = 1 << 30;
+    /// Where there is no child.
+    pub(crate) const NONE: Self = Self(0);
+
+    /// A node.
+    pub(crate) fn node(index: usize) -> Self {
+        debug_assert!(index < 1 << 31, "an index of a node has 31 bits");
+        Self(index as u32)
+    }
+
+    /// A leaf of a list.
+    pub(crate) fn list(first: usize, count: usize) -> Self {
+        debug_assert!((1..=MAX_LEAF).contains(&count) && first < 1 << 28);
+        Self(Self::LEAF | (count as u32 - 1) << 28 | first as u32)
+    }
+
+    /// A leaf of triangles.
+    pub(crate) fn triangles(quad: usize, eight: bool) -> Self {
+        debug_assert!(quad < 1 << 30, "an index of a quad has 30 bits");
+        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | quad as u32)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
+    /// Of a node: its index.
+    #[inline(always)]
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// Of a leaf of a list: which primitives.
+    #[inline(always)]
+    pub(crate) const fn range(self) -> std::ops::Range<usize> {
+        let first = (self.0 & 0x0fff_ffff) as usize;
+        first..first + (self.0 >> 28 & 7) as usize + 1
+    }
+
+    /// Of a leaf of triangles: its first quad.
+    #[inline(always)]
+    pub(crate) const fn quad(self) -> usize {
+        (self.0 & 0x3fff_ffff) as usize
+    }
+
+    /// Of a leaf of triangles: how many places it has, 4 or 8.
+    #[inline(always)]
+    pub(crate) const fn places(self) -> usize {
+        if self.0 & Self::EIGHT != 0 { 8 } else { 4 }
+    }
+}
+
+impl Node {
+    /// Without children.
+    pub(crate) const EMPTY: Self = Self {
+        lower: [[f32::INFINITY; WIDTH]; 3],
+        upper: [[f32::NEG_INFINITY; WIDTH]; 3],
+        child: [Child::NONE; WIDTH],
+        order: [0; WIDTH],
+    };
+
+    /// The box of a child.
+    pub(crate) fn bounds(&self, child: usize) -> Aabb {
+        Aabb {
+            min: Point3::from(self.lower.map(|lower| lower[child])),
+            max: Point3::from(self.upper.map(|upper| upper[child])),
+        }
+    }
+
+    /// Puts a child in its place.
+    pub(crate) fn set(&mut self, child: usize, bounds: &Aabb, what: Child) {
+        let (min, max) = (bounds.min.to_array(), bounds.max.to_array());
+        for axis in 0..3 {
+            self.lower[axis][child] = min[axis];
+            self.upper[axis][child] = max[axis];
+        }
+        self.child[child] = what;
+    }
+
+    /// The children that are there.
+    pub(crate) fn children(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
+        (0..WIDTH)
+            .map(|i| (self.bounds(i), self.child[i]))
+            .filter(|(bounds, _)| !bounds.is_empty())
+    }
+
+    /// Works out in which order rays look at the children: by how far their middles lie along the
+    /// diagonal of each octant, the farthest first.
+    pub(crate) fn sort(&mut self) {
+        for octant in 0..WIDTH / 2 {
+            let mut keyed: [(f32, usize); WIDTH] = std::array::from_fn(|i| {
+                let along = |axis: usize| {
+                    let middle = 0.5 * self.lower[axis][i] + 0.5 * self.upper[axis][i];
+                    let backward = octant >> axis & 1 == 1;
+                    if backward { -middle } else { middle }
+                };
+                // Not where sums are of infinities.
+                let there = self.lower[0][i] <= self.upper[0][i];
+                let key = if there { along(0) + along(1) + along(2) } else { f32::INFINITY };
+                (key, i)
+            });
+            keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let ordered = keyed.map(|(_, i)| i as u32);
+            let bits = |of: &dyn Fn(usize) -> u32| (0..WIDTH).fold(0, |b, k| b | of(k) << (3 * k));
+            self.order[octant] = bits(&|k| ordered[WIDTH - 1 - k]);
+            self.order[octant ^ 7] = bits(&|k| ordered[k]);
+        }
+    }
+}
