@@ -94,6 +94,11 @@ impl<P: Primitives> Accel<P> {
         any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Candidate> {
         let ray = TraversalRay::new(ray, &self.reach)?;
+        if let AnyStructure::Bvh8(bvh) = &self.structure
+            && let Some(found) = bvh.tree.search(&ray, rule, counter, any_hit)
+        {
+            return found;
+        }
         let mut search = Search::new(&self.primitives, &ray, rule, counter, any_hit);
         if search.leaf(&self.unbounded, Span::ALL).is_continue() {
             // Broken off or not, what was accepted is in the search.
@@ -137,6 +142,38 @@ impl<P: Primitives> Traversable for Accel<P> {
         let mut terminate = |_: &Candidate| AnyHit::Terminate;
         self.search(&(*ray).into(), EdgeRule::Closed, None, &mut terminate)
             .is_some()
+    }
+
+    fn intersect_many(&self, rays: &[Ray<f32>], hits: &mut [Option<Hit>]) {
+        assert_eq!(rays.len(), hits.len(), "one place for a hit for each ray");
+        let mut slow = Vec::new();
+        if let AnyStructure::Bvh8(bvh) = &self.structure
+            && bvh.tree.closest_many(rays, hits, &mut |index| slow.push(index))
+        {
+            for index in slow {
+                hits[index] = self.intersect(&rays[index]);
+            }
+            return;
+        }
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.intersect(ray);
+        }
+    }
+
+    fn occluded_many(&self, rays: &[Ray<f32>], occluded: &mut [bool]) {
+        assert_eq!(rays.len(), occluded.len(), "one answer for each ray");
+        let mut slow = Vec::new();
+        if let AnyStructure::Bvh8(bvh) = &self.structure
+            && bvh.tree.any_many(rays, occluded, &mut |index| slow.push(index))
+        {
+            for index in slow {
+                occluded[index] = self.occluded(&rays[index]);
+            }
+            return;
+        }
+        for (ray, occluded) in rays.iter().zip(occluded) {
+            *occluded = self.occluded(ray);
+        }
     }
 
     fn bounds(&self) -> Aabb {

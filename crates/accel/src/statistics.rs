@@ -7,6 +7,8 @@ use std::ops::AddAssign;
 pub trait Counter {
     /// Whether anything is counted.
     const COUNTS: bool;
+    /// Where to count, if anything is counted.
+    fn statistics(&mut self) -> Option<&mut Statistics>;
     /// A node was visited.
     fn node(&mut self);
     /// A primitive was tested.
@@ -15,6 +17,10 @@ pub trait Counter {
 
 impl Counter for () {
     const COUNTS: bool = false;
+    #[inline]
+    fn statistics(&mut self) -> Option<&mut Statistics> {
+        None
+    }
     #[inline]
     fn node(&mut self) {}
     #[inline]
@@ -32,6 +38,10 @@ pub struct Statistics {
 
 impl Counter for Statistics {
     const COUNTS: bool = true;
+    #[inline]
+    fn statistics(&mut self) -> Option<&mut Statistics> {
+        Some(self)
+    }
     #[inline]
     fn node(&mut self) {
         self.nodes_visited += 1;

@@ -8,9 +8,12 @@ pub trait Real: num_traits::Float + num_traits::FloatConst + std::fmt::Debug + S
     fn of(value: f64) -> Self;
     /// The exact value as an `f64`.
     fn wide(self) -> f64;
+    /// Whether a product of two, computed as an `f64`, is exact.
+    const PRODUCTS_ARE_EXACT: bool;
 }
 
 impl Real for f32 {
+    const PRODUCTS_ARE_EXACT: bool = true;
     #[inline]
     fn of(value: f64) -> Self {
         value as Self
@@ -22,6 +25,7 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    const PRODUCTS_ARE_EXACT: bool = false;
     #[inline]
     fn of(value: f64) -> Self {
         value
@@ -393,12 +397,12 @@ impl<T: Real> Vector3<T> {
     #[inline]
     pub fn dominant_axis(self) -> Axis {
         let (x, y, z) = (self.x.abs(), self.y.abs(), self.z.abs());
-        if x >= y && x >= z {
+        // Not `&&`: which it is, is hard to guess.
+        let y_or_z = if y >= z { Axis::Y } else { Axis::Z };
+        if (x >= y) & (x >= z) {
             Axis::X
-        } else if y >= z {
-            Axis::Y
         } else {
-            Axis::Z
+            y_or_z
         }
     }
 

@@ -20,9 +20,9 @@ mod traverse;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
-use ombra_geometry::{Ray, TriangleMesh};
+use ombra_geometry::{EdgeRule, Hit, Ray, TriangleMesh};
 
-use crate::{Bounded, Candidate, Reach, Structure, TraversalRay, Visitor};
+use crate::{AnyHit, Bounded, Candidate, Counter, Reach, Structure, TraversalRay, Visitor};
 pub(crate) use build::item::Item;
 use collapse::WideTree;
 use kernel::{Found, Near, SingleRay, Tree};
@@ -142,24 +142,70 @@ impl Wide {
     #[inline]
     pub(crate) fn closest(&self, ray: &Ray) -> Option<Option<Candidate>> {
         let tree = self.triangles()?;
-        let ray = SingleRay::new(ray, &self.near)?;
-        let found = kernel::closest(self.level, &tree, &ray);
-        Some(found.map(Found::candidate))
+        let found = kernel::closest(self.level, &tree, &self.near, ray)?;
+        Some(found.map(|found| found.candidate()))
+    }
+
+    /// The closest hits of many rays, and which rays are not for the kernels; no if none is.
+    pub(crate) fn closest_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut [Option<Hit>],
+        slow: &mut dyn FnMut(usize),
+    ) -> bool {
+        let Some(tree) = self.triangles() else {
+            return false;
+        };
+        kernel::closest_many(self.level, &tree, &self.near, rays, hits, slow);
+        true
+    }
+
+    /// Whether many rays have a hit, and which rays are not for the kernels; no if none is.
+    pub(crate) fn any_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut [bool],
+        slow: &mut dyn FnMut(usize),
+    ) -> bool {
+        let Some(tree) = self.triangles() else {
+            return false;
+        };
+        kernel::any_many(self.level, &tree, &self.near, rays, hits, slow);
+        true
+    }
+
+    /// The closest hit that `any_hit` accepts; `None` if this ray is not for the kernels.
+    pub(crate) fn search<C: Counter>(
+        &self,
+        ray: &TraversalRay,
+        rule: EdgeRule,
+        counter: &mut C,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
+    ) -> Option<Option<Candidate>> {
+        let tree = self.triangles()?;
+        let ray = SingleRay::rounded(ray, &self.near)?;
+        let mut said = |found: &Found| any_hit(&found.candidate());
+        let found = match counter.statistics() {
+            None => kernel::search(self.level, &tree, &ray, rule, &mut said),
+            Some(counted) => {
+                kernel::search_counted(self.level, &tree, &ray, rule, &mut said, counted)
+            }
+        };
+        Some(found.map(|found| found.candidate()))
     }
 
     /// Whether there is a hit; `None` if this ray is not for the kernels.
     #[inline]
     pub(crate) fn any(&self, ray: &Ray) -> Option<bool> {
         let tree = self.triangles()?;
-        let ray = SingleRay::new(ray, &self.near)?;
-        Some(kernel::any(self.level, &tree, &ray))
+        kernel::any(self.level, &tree, &self.near, ray)
     }
 }
 
 impl Found {
     /// As others see it.
     #[inline]
-    fn candidate(self) -> Candidate {
+    fn candidate(&self) -> Candidate {
         Candidate::new(self.crossing, self.triangle)
     }
 }

@@ -33,16 +33,25 @@ pub struct Watertight<T> {
     shear: Vector3<T>,
 }
 
+/// What takes the places of x, y and z, by the axis that becomes z and by whether the ray goes down
+/// it: two axes change places then, so that the winding is kept. A table, since the directions of
+/// rays are hard to guess for a processor.
+const AXES: [[[Axis; 3]; 3]; 2] = {
+    use Axis::{X, Y, Z};
+    [
+        [[Y, Z, X], [Z, X, Y], [X, Y, Z]],
+        [[Z, Y, X], [X, Z, Y], [Y, X, Z]],
+    ]
+};
+
 impl<T: Real> TriangleKernel<T> for Watertight<T> {
     #[inline]
     fn new(ray: &Ray<T>) -> Self {
-        let d = ray.direction;
-        let kz = d.dominant_axis();
-        let (mut kx, mut ky) = (kz.next(), kz.next().next());
-        if d[kz] < T::zero() {
-            std::mem::swap(&mut kx, &mut ky);
-        }
-        let shear = Vector3::new(d[kx] / d[kz], d[ky] / d[kz], T::one() / d[kz]);
+        let d = ray.direction.to_array();
+        let kz = ray.direction.dominant_axis() as usize;
+        let [kx, ky, kz] = AXES[usize::from(d[kz] < T::zero())][kz];
+        let [x, y, z] = [kx, ky, kz].map(|axis| d[axis as usize]);
+        let shear = Vector3::new(x / z, y / z, T::one() / z);
         Self { kx, ky, kz, shear }
     }
 
@@ -80,7 +89,8 @@ impl<T: Real> Watertight<T> {
     #[inline]
     pub fn decide(&self, corners: [Vector3<T>; 3], rule: EdgeRule) -> Option<Crossing> {
         let [a, b, c] = corners.map(Vector3::wide);
-        let (u, v, w) = (edge_exact(c, b), edge_exact(a, c), edge_exact(b, a));
+        let edge = edge_exact::<T>;
+        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         if on_both_sides([u, v, w]) {
             return None;
         }
@@ -128,14 +138,15 @@ fn edge<T: Real>(p: Vector3<T>, q: Vector3<T>) -> T {
 
 /// The same with the true sign, as long as no product leaves the number range.
 ///
-/// Products of two singles are exact here. Products of two doubles are not: where they round to the
+/// Products of two singles `T` are exact here. Products of two doubles are not: where they round to the
 /// same number, the difference is that of their rounding errors. That a product's own error is a
 /// number is Dekker's ("A floating-point technique for extending the available precision",
 /// Numerische Mathematik 18, 1971); to ask a fused multiply-add for it is Kahan's.
-fn edge_exact(p: Vector3<f64>, q: Vector3<f64>) -> f64 {
+#[inline]
+fn edge_exact<T: Real>(p: Vector3<f64>, q: Vector3<f64>) -> f64 {
     let (left, right) = (p.x * q.y, p.y * q.x);
     let difference = left - right;
-    if difference == 0.0 {
+    if !T::PRODUCTS_ARE_EXACT && difference == 0.0 {
         p.x.mul_add(q.y, -left) - p.y.mul_add(q.x, -right)
     } else {
         difference
@@ -146,7 +157,8 @@ fn edge_exact(p: Vector3<f64>, q: Vector3<f64>) -> f64 {
 #[inline]
 fn on_both_sides<T: Real>([u, v, w]: [T; 3]) -> bool {
     let zero = T::zero();
-    (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero)
+    // Not `||`: which it is, is hard to guess.
+    ((u < zero) | (v < zero) | (w < zero)) & ((u > zero) | (v > zero) | (w > zero))
 }
 
 /// Whether the crossing counts for the ray. One at infinity, where products overflow, does not.

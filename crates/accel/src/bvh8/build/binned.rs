@@ -242,7 +242,7 @@ impl Bins {
 /// What a side costs, but for the area of its box: leaves that it needs.
 #[inline(always)]
 fn leaves(count: u32) -> f32 {
-    (count.div_ceil(MAX_LEAF as u32)) as f32
+    count as f32
 }
 
 /// The cheapest border: the least sum of half area · leaves over both sides. `None` if areas are

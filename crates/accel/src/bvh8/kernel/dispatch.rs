@@ -1,12 +1,14 @@
 //! The kernels compiled once for each level of instructions, and the choice between them.
 
-use ombra_geometry::EdgeRule;
+use ombra_geometry::{EdgeRule, Hit, Ray};
 
-use super::level::{Level, Portable};
+use super::level::{Lanes, Level, Portable};
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
-use super::ray::SingleRay;
-use super::walk::{Any, Closest, Found, Tree, walk};
+use super::ray::{Near, SingleRay};
+use super::stream::stream;
+use super::walk::{Any, Closest, Found, Said, Tree, walk};
+use crate::{AnyHit, Statistics};
 
 /// Makes of each kernel one function a level, and one that chooses.
 macro_rules! kernels {
@@ -65,20 +67,82 @@ macro_rules! kernels {
 }
 
 kernels! {
-    /// The closest hit.
-    fn closest(tree: &Tree<'_>, ray: &SingleRay) -> Option<Found> = closest_hit;
-    /// Whether there is a hit.
-    fn any(tree: &Tree<'_>, ray: &SingleRay) -> bool = any_hit;
+    /// The closest hit; `None` if this ray is not for the kernels.
+    fn closest(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<Option<Found>> = closest_hit;
+    /// The closest hits of many rays. `slow` is told which rays are not for the kernels.
+    fn closest_many(tree: &Tree<'_>, near: &Near, rays: &[Ray], hits: &mut [Option<Hit>], slow: &mut dyn FnMut(usize)) -> () = closest_hits;
+    /// Whether many rays have a hit. `slow` is told which rays are not for the kernels.
+    fn any_many(tree: &Tree<'_>, near: &Near, rays: &[Ray], hits: &mut [bool], slow: &mut dyn FnMut(usize)) -> () = any_hits;
+    /// The closest hit that `said` accepts, and what the search cost.
+    fn search(tree: &Tree<'_>, ray: &SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit) -> Option<Found> = said_hit;
+    /// The same, counting.
+    fn search_counted(tree: &Tree<'_>, ray: &SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
+    /// Whether there is a hit; `None` if this ray is not for the kernels.
+    fn any(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> = any_hit;
 }
 
 #[inline(always)]
-unsafe fn closest_hit<L: super::level::Lanes>(tree: &Tree<'_>, ray: &SingleRay) -> Option<Found> {
+unsafe fn closest_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<Option<Found>> {
+    let ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
-    unsafe { walk::<L, _, _>(tree, ray, EdgeRule::Closed, &mut Closest, &mut ()) }
+    unsafe { Some(walk::<L, _, _>(tree, &ray, EdgeRule::Closed, &mut Closest, &mut ())) }
 }
 
 #[inline(always)]
-unsafe fn any_hit<L: super::level::Lanes>(tree: &Tree<'_>, ray: &SingleRay) -> bool {
+unsafe fn any_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> {
+    let ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
-    unsafe { walk::<L, _, _>(tree, ray, EdgeRule::Closed, &mut Any, &mut ()).is_some() }
+    let found = unsafe { walk::<L, _, _>(tree, &ray, EdgeRule::Closed, &mut Any, &mut ()) };
+    Some(found.is_some())
+}
+
+#[inline(always)]
+unsafe fn said_hit<L: Lanes>(
+    tree: &Tree<'_>,
+    ray: &SingleRay,
+    rule: EdgeRule,
+    said: &mut dyn FnMut(&Found) -> AnyHit,
+) -> Option<Found> {
+    // SAFETY: the caller's promise.
+    unsafe { walk::<L, _, _>(tree, ray, rule, &mut Said(said), &mut ()) }
+}
+
+#[inline(always)]
+unsafe fn said_hit_counted<L: Lanes>(
+    tree: &Tree<'_>,
+    ray: &SingleRay,
+    rule: EdgeRule,
+    said: &mut dyn FnMut(&Found) -> AnyHit,
+    statistics: &mut Statistics,
+) -> Option<Found> {
+    // SAFETY: the caller's promise.
+    unsafe { walk::<L, _, _>(tree, ray, rule, &mut Said(said), statistics) }
+}
+
+#[inline(always)]
+unsafe fn closest_hits<L: Lanes>(
+    tree: &Tree<'_>,
+    near: &Near,
+    rays: &[Ray],
+    hits: &mut [Option<Hit>],
+    slow: &mut dyn FnMut(usize),
+) {
+    let answer = |index: usize, found: &Option<Found>| {
+        hits[index] = found.as_ref().map(|found| found.candidate().hit());
+    };
+    // SAFETY: the caller's promise.
+    unsafe { stream::<L, Closest>(tree, near, rays, answer, slow) }
+}
+
+#[inline(always)]
+unsafe fn any_hits<L: Lanes>(
+    tree: &Tree<'_>,
+    near: &Near,
+    rays: &[Ray],
+    hits: &mut [bool],
+    slow: &mut dyn FnMut(usize),
+) {
+    let answer = |index: usize, found: &Option<Found>| hits[index] = found.is_some();
+    // SAFETY: the caller's promise.
+    unsafe { stream::<L, Any>(tree, near, rays, answer, slow) }
 }

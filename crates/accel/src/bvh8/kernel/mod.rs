@@ -7,10 +7,11 @@
 mod dispatch;
 mod level;
 mod ray;
+mod stream;
 mod walk;
 
 pub use level::Level;
 
-pub(super) use dispatch::{any, closest};
+pub(super) use dispatch::{any, any_many, closest, closest_many, search, search_counted};
 pub(super) use ray::{Near, SingleRay};
 pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree};

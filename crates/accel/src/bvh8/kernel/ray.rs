@@ -20,7 +20,7 @@
 use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
 use ombra_geometry::{Point3, Ray};
 
-use crate::Reach;
+use crate::{Reach, TraversalRay};
 
 /// The pad for each unit of the distance to the farthest corner.
 const PAD: f32 = 21.0 * f32::EPSILON;
@@ -80,6 +80,35 @@ pub(crate) struct SingleRay {
 }
 
 impl SingleRay {
+    /// The same for a ray in double precision that is to be traced in single: its range is rounded
+    /// inward, so that it holds the same singles.
+    #[inline]
+    pub(crate) fn rounded(ray: &TraversalRay, near: &Near) -> Option<Self> {
+        if !ray.single() {
+            return None;
+        }
+        let Ray {
+            origin,
+            direction,
+            t_min,
+            t_max,
+        } = ray.ray;
+        let (mut from, mut to) = (t_min as f32, t_max as f32);
+        if f64::from(from) < t_min {
+            from = from.next_up();
+        }
+        if f64::from(to) > t_max {
+            to = to.next_down();
+        }
+        let ray = Ray {
+            origin: origin.cast(),
+            direction: direction.cast(),
+            t_min: from,
+            t_max: to,
+        };
+        Self::new(&ray, near)
+    }
+
     /// `None` if the ray is not valid, or is to be traced in double precision.
     #[inline(always)]
     pub(crate) fn new(ray: &Ray, near: &Near) -> Option<Self> {

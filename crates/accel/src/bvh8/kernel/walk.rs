@@ -58,7 +58,7 @@ pub(crate) trait Word {
 }
 
 /// The closest hit.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Closest;
 impl Word for Closest {
     const ORDERED: bool = true;
@@ -69,7 +69,7 @@ impl Word for Closest {
 }
 
 /// Any hit.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Any;
 impl Word for Any {
     const ORDERED: bool = false;
@@ -90,12 +90,12 @@ impl Word for Said<'_> {
 }
 
 /// The search of one ray, as far as it has come.
-struct Search<'a, W> {
-    word: &'a mut W,
-    rule: EdgeRule,
-    t_min: f64,
-    t_max: f64,
-    best: Option<Found>,
+pub(super) struct Search<'a, W> {
+    pub(super) word: &'a mut W,
+    pub(super) rule: EdgeRule,
+    pub(super) t_min: f64,
+    pub(super) t_max: f64,
+    pub(super) best: Option<Found>,
 }
 
 /// Walks down the tree.
@@ -129,28 +129,38 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
         let slabs = Slabs::<L>::new(ray);
         let triangles = Triangles::<L>::new(ray);
         let mut t_max = ray.t_max;
-        let mut waiting = 1;
-        *children = tree.root;
-        *entries = f32::NEG_INFINITY;
-        while waiting > 0 {
-            waiting -= 1;
-            let child = *children.add(waiting);
-            if W::ORDERED && *entries.add(waiting) > t_max {
-                continue;
-            }
-            if !child.is_leaf() {
+        let mut waiting = 0;
+        let mut child = tree.root;
+        'search: loop {
+            while !child.is_leaf() {
                 counter.node();
                 let node = tree.nodes.as_ptr().add(child.index());
                 let (near, far) = slabs.entries(node, L::splat(t_max));
-                let what = (&raw const (*node).child).cast();
+                let entered = near.at_most(far);
+                let what: *const Child = (&raw const (*node).child).cast();
+                if entered & entered.wrapping_sub(1) == 0 {
+                    // One child or none.
+                    if entered != 0 {
+                        child = *what.add(entered.trailing_zeros() as usize);
+                        continue;
+                    }
+                    match next::<W>(children, entries, &mut waiting, t_max) {
+                        Some(next) => child = next,
+                        None => break 'search,
+                    }
+                    continue;
+                }
                 let to = children.add(waiting);
-                waiting += if W::ORDERED {
+                let nearest = if W::ORDERED {
                     let order = (*node).order[(ray.octant & 7) as usize];
-                    near.push(far, order, what, to, entries.add(waiting))
+                    let pushed = near.push(far, order, what, to, entries.add(waiting));
+                    order >> (3 * pushed.ilog2()) & 7
                 } else {
-                    near.push_unordered(far, what, to)
+                    near.push_unordered(far, what, to);
+                    entered.ilog2()
                 };
-                continue;
+                waiting += entered.count_ones() as usize - 1;
+                child = *what.add(nearest as usize);
             }
             let quad = tree.quads.as_ptr().add(child.quad()).cast::<f32>();
             if !triangles.test(quad, child.places(), &ray.watertight, &mut search, counter) {
@@ -159,9 +169,36 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
             if W::ORDERED {
                 t_max = search.t_max as f32;
             }
+            match next::<W>(children, entries, &mut waiting, t_max) {
+                Some(next) => child = next,
+                None => break,
+            }
         }
     }
     search.best
+}
+
+/// What waits and is not beyond `t_max`, the last that was pushed first.
+///
+/// # Safety
+/// - So many children and entries were written.
+#[inline(always)]
+unsafe fn next<W: Word>(
+    children: *const Child,
+    entries: *const f32,
+    waiting: &mut usize,
+    t_max: f32,
+) -> Option<Child> {
+    while *waiting > 0 {
+        *waiting -= 1;
+        // SAFETY: the caller's promise.
+        unsafe {
+            if !W::ORDERED || *entries.add(*waiting) <= t_max {
+                return Some(*children.add(*waiting));
+            }
+        }
+    }
+    None
 }
 
 /// Three numbers, each eight times. No closure: it would not have the level's instructions.
@@ -176,7 +213,7 @@ unsafe fn splat<L: Lanes>([x, y, z]: [f32; 3]) -> [L; 3] {
 
 /// The test of eight boxes.
 #[derive(Clone, Copy)]
-struct Slabs<L> {
+pub(super) struct Slabs<L> {
     inverse: [L; 3],
     near: [L; 3],
     far: [L; 3],
@@ -190,7 +227,7 @@ impl<L: Lanes> Slabs<L> {
     /// # Safety
     /// - See [`walk`].
     #[inline(always)]
-    unsafe fn new(ray: &SingleRay) -> Self {
+    pub(super) unsafe fn new(ray: &SingleRay) -> Self {
         let first = |k: usize| {
             let backward = (ray.octant >> k & 1) as usize;
             (k + 3 * backward) * WIDTH
@@ -212,7 +249,7 @@ impl<L: Lanes> Slabs<L> {
     /// # Safety
     /// - See [`walk`]; and the node may be read.
     #[inline(always)]
-    unsafe fn entries(&self, node: *const Node, t_max: L) -> (L, L) {
+    pub(super) unsafe fn entries(&self, node: *const Node, t_max: L) -> (L, L) {
         let planes = node.cast::<f32>();
         // SAFETY: the six lists of planes are the first numbers of a node.
         unsafe {
@@ -234,7 +271,7 @@ impl<L: Lanes> Slabs<L> {
 
 /// The first half of the watertight test, for eight triangles.
 #[derive(Clone, Copy)]
-struct Triangles<L> {
+pub(super) struct Triangles<L> {
     /// Which component takes the place of x, y and z.
     axes: [usize; 3],
     origin: [L; 3],
@@ -245,7 +282,7 @@ impl<L: Lanes> Triangles<L> {
     /// # Safety
     /// - See [`walk`].
     #[inline(always)]
-    unsafe fn new(ray: &SingleRay) -> Self {
+    pub(super) unsafe fn new(ray: &SingleRay) -> Self {
         let axes = ray.watertight.axes();
         let shear = ray.watertight.shear();
         // SAFETY: the caller's promise.
@@ -282,7 +319,7 @@ impl<L: Lanes> Triangles<L> {
     /// # Safety
     /// - See [`walk`]; and there is a leaf of so many places.
     #[inline(always)]
-    unsafe fn test<W: Word, C: Counter>(
+    pub(super) unsafe fn test<W: Word, C: Counter>(
         &self,
         leaf: *const f32,
         places: usize,

@@ -113,7 +113,7 @@ impl Lanes for Avx2 {
         children: *const Child,
         to: *mut Child,
         entries: *mut f32,
-    ) -> usize {
+    ) -> u32 {
         // SAFETY: as above.
         unsafe {
             let places = places(order);
@@ -124,19 +124,41 @@ impl Lanes for Avx2 {
             let kept = compressed(entered);
             _mm256_storeu_ps(entries, _mm256_permutevar8x32_ps(near, kept));
             _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(children, kept));
-            entered.count_ones() as usize
+            entered as u32
         }
     }
 
     #[inline(always)]
-    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize {
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> u32 {
         // SAFETY: as above.
         unsafe {
             let entered = self.at_most(far) as usize;
             let children = _mm256_loadu_si256(children.cast());
             let kept = compressed(entered);
             _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(children, kept));
-            entered.count_ones() as usize
+            entered as u32
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn keep(children: *mut Child, entries: *mut f32, count: usize, t_max: f32) -> usize {
+        // SAFETY: as above. What is written begins at or before what was read, so nothing that is
+        // still to be read is written over.
+        unsafe {
+            let (mut from, mut kept) = (0, 0);
+            while from < count {
+                let near = _mm256_loadu_ps(entries.add(from));
+                let what = _mm256_loadu_si256(children.add(from).cast());
+                let there = ((1_u64 << (count - from).min(8)) - 1) as usize;
+                let near_enough = Self(near).at_most(Self::splat(t_max)) as usize & there;
+                let places = compressed(near_enough);
+                _mm256_storeu_ps(entries.add(kept), _mm256_permutevar8x32_ps(near, places));
+                let what = _mm256_permutevar8x32_epi32(what, places);
+                _mm256_storeu_si256(children.add(kept).cast(), what);
+                kept += near_enough.count_ones() as usize;
+                from += 8;
+            }
+            kept
         }
     }
 }

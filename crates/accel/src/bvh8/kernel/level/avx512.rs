@@ -4,7 +4,7 @@
 //! time are seldom wanted.
 
 use std::arch::x86_64::{
-    __m256, __m256i, _CMP_LE_OQ, _mm256_cmp_ps_mask, _mm256_fmadd_ps, _mm256_loadu_ps,
+    __m256, __m256i, _CMP_LE_OQ, _mm256_cmp_ps, _mm256_cmp_ps_mask, _mm256_movemask_ps, _mm256_fmadd_ps, _mm256_loadu_ps,
     _mm256_loadu_si256, _mm256_maskz_compress_epi32, _mm256_maskz_compress_ps, _mm256_max_ps,
     _mm256_min_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
     _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
@@ -80,7 +80,8 @@ impl Lanes for Avx512 {
     #[inline(always)]
     unsafe fn at_most(self, other: Self) -> u32 {
         // SAFETY: as above.
-        u32::from(unsafe { _mm256_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) })
+        // Not into a mask register: from there it takes longer to where branches can see it.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
     }
 
     #[inline(always)]
@@ -91,7 +92,7 @@ impl Lanes for Avx512 {
         children: *const Child,
         to: *mut Child,
         entries: *mut f32,
-    ) -> usize {
+    ) -> u32 {
         // SAFETY: as above.
         unsafe {
             let places = places(order);
@@ -101,18 +102,42 @@ impl Lanes for Avx512 {
             let entered = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
             _mm256_storeu_ps(entries, _mm256_maskz_compress_ps(entered, near));
             _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(entered, children));
-            entered.count_ones() as usize
+            u32::from(entered)
         }
     }
 
     #[inline(always)]
-    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize {
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> u32 {
         // SAFETY: as above.
         unsafe {
             let entered = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(self.0, far.0);
             let children = _mm256_loadu_si256(children.cast());
             _mm256_storeu_si256(to.cast(), _mm256_maskz_compress_epi32(entered, children));
-            entered.count_ones() as usize
+            u32::from(entered)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn keep(children: *mut Child, entries: *mut f32, count: usize, t_max: f32) -> usize {
+        // SAFETY: as above. What is written begins at or before what was read, so nothing that is
+        // still to be read is written over.
+        unsafe {
+            let (mut from, mut kept) = (0, 0);
+            while from < count {
+                let near = _mm256_loadu_ps(entries.add(from));
+                let what = _mm256_loadu_si256(children.add(from).cast());
+                let there = ((1_u32 << (count - from).min(8)) - 1) as u8;
+                let near_enough = Self(near).at_most(Self::splat(t_max)) as u8 & there;
+                _mm256_storeu_ps(
+                    entries.add(kept),
+                    _mm256_maskz_compress_ps(near_enough, near),
+                );
+                let what = _mm256_maskz_compress_epi32(near_enough, what);
+                _mm256_storeu_si256(children.add(kept).cast(), what);
+                kept += near_enough.count_ones() as usize;
+                from += 8;
+            }
+            kept
         }
     }
 }

@@ -74,7 +74,8 @@ pub(crate) trait Lanes: Copy {
     unsafe fn at_most(self, other: Self) -> u32;
 
     /// Writes the children `k` with `self[k] <= far[k]` and those numbers of `self`, one after the
-    /// other in the given [order](super::super::node::Node::order), and counts them.
+    /// other in the given [order](super::super::node::Node::order). Bit k of the answer: whether
+    /// the one at place k of the order is among them.
     ///
     /// # Safety
     /// - Eight may be read at `children` and written at `to` and at `entries`.
@@ -85,13 +86,21 @@ pub(crate) trait Lanes: Copy {
         children: *const Child,
         to: *mut Child,
         entries: *mut f32,
-    ) -> usize;
+    ) -> u32;
 
-    /// The same in the order in which they lie, without the numbers.
+    /// The same in the order in which they lie, without the numbers. Bit k of the answer: whether
+    /// child k is among them.
     ///
     /// # Safety
     /// - Eight may be read at `children` and written at `to`.
-    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize;
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> u32;
+
+    /// Of `count` children and their entries keeps those that are not beyond `t_max`, in their order,
+    /// and counts them.
+    ///
+    /// # Safety
+    /// - `count` rounded up to eights may be read and written at both.
+    unsafe fn keep(children: *mut Child, entries: *mut f32, count: usize, t_max: f32) -> usize;
 }
 
 /// A level of instructions.

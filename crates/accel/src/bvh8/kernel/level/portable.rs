@@ -70,8 +70,8 @@ impl Lanes for Portable {
         children: *const Child,
         to: *mut Child,
         entries: *mut f32,
-    ) -> usize {
-        let mut count = 0;
+    ) -> u32 {
+        let (mut count, mut pushed) = (0, 0);
         for place in 0..8 {
             let k = (order >> (3 * place) & 7) as usize;
             if self.0[k] <= far.0[k] {
@@ -81,21 +81,40 @@ impl Lanes for Portable {
                     *entries.add(count) = self.0[k];
                 }
                 count += 1;
+                pushed |= 1 << place;
             }
         }
-        count
+        pushed
     }
 
     #[inline(always)]
-    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> usize {
-        let mut count = 0;
+    unsafe fn push_unordered(self, far: Self, children: *const Child, to: *mut Child) -> u32 {
+        let (mut count, mut pushed) = (0, 0);
         for k in 0..8 {
             if self.0[k] <= far.0[k] {
                 // SAFETY: the caller's promise; `count` and `k` are below 8.
                 unsafe { *to.add(count) = *children.add(k) };
                 count += 1;
+                pushed |= 1 << k;
             }
         }
-        count
+        pushed
+    }
+
+    #[inline(always)]
+    unsafe fn keep(children: *mut Child, entries: *mut f32, count: usize, t_max: f32) -> usize {
+        let mut kept = 0;
+        for k in 0..count {
+            // SAFETY: the caller's promise; `kept` is at most k.
+            unsafe {
+                let entry = *entries.add(k);
+                if entry <= t_max {
+                    *children.add(kept) = *children.add(k);
+                    *entries.add(kept) = entry;
+                    kept += 1;
+                }
+            }
+        }
+        kept
     }
 }
