@@ -183,12 +183,12 @@ impl Wide {
         any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Option<Candidate>> {
         let tree = self.triangles()?;
-        let ray = SingleRay::rounded(ray, &self.near)?;
+        let mut ray = SingleRay::rounded(ray, &self.near)?;
         let mut said = |found: &Found| any_hit(&found.candidate());
         let found = match counter.statistics() {
-            None => kernel::search(self.level, &tree, &ray, rule, &mut said),
+            None => kernel::search(self.level, &tree, &mut ray, rule, &mut said),
             Some(counted) => {
-                kernel::search_counted(self.level, &tree, &ray, rule, &mut said, counted)
+                kernel::search_counted(self.level, &tree, &mut ray, rule, &mut said, counted)
             }
         };
         Some(found.map(|found| found.candidate()))
@@ -199,13 +199,5 @@ impl Wide {
     pub(crate) fn any(&self, ray: &Ray) -> Option<bool> {
         let tree = self.triangles()?;
         kernel::any(self.level, &tree, &self.near, ray)
-    }
-}
-
-impl Found {
-    /// As others see it.
-    #[inline]
-    fn candidate(&self) -> Candidate {
-        Candidate::new(self.crossing, self.triangle)
     }
 }

@@ -29,9 +29,12 @@ const _: () = assert!(size_of::<Node>() == 256);
 
 /// What a child is: a node by its index, or a leaf. In 32 bits, from the highest:
 ///
-/// | a node           | 0   | 31 bits: its index                                        |
+/// | a node           | 0   | 31 bits: 8 times its index                                |
 /// | a leaf of a list | 1   | 3 bits: how many primitives, less 1; 28 bits: the first   |
-/// | a leaf of triangles | 1 | 1 bit: whether it has eight places and not four; 30 bits: the index of its first [`Quad`](super::Quad) |
+/// | a leaf of triangles | 1 | 1 bit: whether it has eight places and not four; 30 bits: 5 times the index of its first [`Quad`](super::Quad) |
+///
+/// The numbers of nodes and quads are those of 32 bytes before them, so that kernels find the
+/// address of either in the same way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(crate) struct Child(pub(crate) u32);
@@ -47,8 +50,8 @@ impl Child {
 
     /// A node.
     pub(crate) fn node(index: usize) -> Self {
-        debug_assert!(index < 1 << 31, "an index of a node has 31 bits");
-        Self(index as u32)
+        debug_assert!(index < 1 << 28, "a node is found with 31 bits");
+        Self(8 * index as u32)
     }
 
     /// A leaf of a list.
@@ -59,8 +62,8 @@ impl Child {
 
     /// A leaf of triangles.
     pub(crate) fn triangles(quad: usize, eight: bool) -> Self {
-        debug_assert!(quad < 1 << 30, "an index of a quad has 30 bits");
-        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | quad as u32)
+        debug_assert!(quad < (1 << 30) / 5, "a quad is found with 30 bits");
+        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | 5 * quad as u32)
     }
 
     #[inline(always)]
@@ -71,7 +74,13 @@ impl Child {
     /// Of a node: its index.
     #[inline(always)]
     pub(crate) const fn index(self) -> usize {
-        self.0 as usize
+        (self.0 / 8) as usize
+    }
+
+    /// Bytes of nodes, or of quads, before it.
+    #[inline(always)]
+    pub(crate) const fn offset(self) -> usize {
+        ((self.0 & 0x3fff_ffff) as usize) << 5
     }
 
     /// Of a leaf of a list: which primitives.
@@ -84,7 +93,7 @@ impl Child {
     /// Of a leaf of triangles: its first quad.
     #[inline(always)]
     pub(crate) const fn quad(self) -> usize {
-        (self.0 & 0x3fff_ffff) as usize
+        ((self.0 & 0x3fff_ffff) / 5) as usize
     }
 
     /// Of a leaf of triangles: how many places it has, 4 or 8.

@@ -74,32 +74,32 @@ kernels! {
     /// Whether many rays have a hit. `slow` is told which rays are not for the kernels.
     fn any_many(tree: &Tree<'_>, near: &Near, rays: &[Ray], hits: &mut [bool], slow: &mut dyn FnMut(usize)) -> () = any_hits;
     /// The closest hit that `said` accepts, and what the search cost.
-    fn search(tree: &Tree<'_>, ray: &SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit) -> Option<Found> = said_hit;
+    fn search(tree: &Tree<'_>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit) -> Option<Found> = said_hit;
     /// The same, counting.
-    fn search_counted(tree: &Tree<'_>, ray: &SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
+    fn search_counted(tree: &Tree<'_>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
     /// Whether there is a hit; `None` if this ray is not for the kernels.
     fn any(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> = any_hit;
 }
 
 #[inline(always)]
 unsafe fn closest_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<Option<Found>> {
-    let ray = SingleRay::new(ray, near)?;
+    let mut ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
-    unsafe { Some(walk::<L, _, _>(tree, &ray, EdgeRule::Closed, &mut Closest, &mut ())) }
+    unsafe { Some(walk::<L, _, _>(tree, &mut ray, EdgeRule::Closed, &mut Closest, &mut ())) }
 }
 
 #[inline(always)]
 unsafe fn any_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> {
-    let ray = SingleRay::new(ray, near)?;
+    let mut ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
-    let found = unsafe { walk::<L, _, _>(tree, &ray, EdgeRule::Closed, &mut Any, &mut ()) };
+    let found = unsafe { walk::<L, _, _>(tree, &mut ray, EdgeRule::Closed, &mut Any, &mut ()) };
     Some(found.is_some())
 }
 
 #[inline(always)]
 unsafe fn said_hit<L: Lanes>(
     tree: &Tree<'_>,
-    ray: &SingleRay,
+    ray: &mut SingleRay,
     rule: EdgeRule,
     said: &mut dyn FnMut(&Found) -> AnyHit,
 ) -> Option<Found> {
@@ -110,7 +110,7 @@ unsafe fn said_hit<L: Lanes>(
 #[inline(always)]
 unsafe fn said_hit_counted<L: Lanes>(
     tree: &Tree<'_>,
-    ray: &SingleRay,
+    ray: &mut SingleRay,
     rule: EdgeRule,
     said: &mut dyn FnMut(&Found) -> AnyHit,
     statistics: &mut Statistics,
@@ -127,8 +127,8 @@ unsafe fn closest_hits<L: Lanes>(
     hits: &mut [Option<Hit>],
     slow: &mut dyn FnMut(usize),
 ) {
-    let answer = |index: usize, found: &Option<Found>| {
-        hits[index] = found.as_ref().map(|found| found.candidate().hit());
+    let answer = |index: usize, found: Found| {
+        hits[index] = found.some().map(|found| found.candidate().hit());
     };
     // SAFETY: the caller's promise.
     unsafe { stream::<L, Closest>(tree, near, rays, answer, slow) }
@@ -142,7 +142,7 @@ unsafe fn any_hits<L: Lanes>(
     hits: &mut [bool],
     slow: &mut dyn FnMut(usize),
 ) {
-    let answer = |index: usize, found: &Option<Found>| hits[index] = found.is_some();
+    let answer = |index: usize, found: Found| hits[index] = found.some().is_some();
     // SAFETY: the caller's promise.
     unsafe { stream::<L, Any>(tree, near, rays, answer, slow) }
 }

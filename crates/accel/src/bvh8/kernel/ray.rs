@@ -18,7 +18,7 @@
 //! So a pad of 16 ε F + 4 ε (|o| + F) is enough. It is computed rounded up: `PAD` and `PAD_AT`.
 
 use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
-use ombra_geometry::{Point3, Ray};
+use ombra_geometry::Ray;
 
 use crate::{Reach, TraversalRay};
 
@@ -33,7 +33,7 @@ const LEAST: f32 = 1.0 / (1 << 30) as f32;
 /// on the side of "no".
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    centre: [f32; 3],
+    centre: [f32; 4],
     /// No corner is further from the centre than this.
     half: f32,
     /// A ray from up to here is near; negative if none is.
@@ -51,7 +51,7 @@ impl Near {
         let centre = bounds.centre();
         let rounding = 2.0 * f64::from(f32::EPSILON) * reach.coordinate();
         Self {
-            centre: [centre.x as f32, centre.y as f32, centre.z as f32],
+            centre: [centre.x as f32, centre.y as f32, centre.z as f32, 0.0],
             half: (0.5001 * extent + rounding) as f32,
             // What is far is decided in double precision: 16 extents from the centre.
             limit: if usable {
@@ -67,15 +67,22 @@ impl Near {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SingleRay {
     /// Where the ray meets plane p of an axis: p · `inverse` + `near`, or + `far` for the side where
-    /// it leaves a box.
-    pub(crate) inverse: [f32; 3],
-    pub(crate) near: [f32; 3],
-    pub(crate) far: [f32; 3],
+    /// it leaves a box. The fourth numbers mean nothing; so below.
+    pub(crate) inverse: [f32; 4],
+    pub(crate) near: [f32; 4],
+    pub(crate) far: [f32; 4],
+    /// Where in a node the planes begin at which the ray enters boxes, by axis, in numbers; and those
+    /// at which it leaves them.
+    pub(crate) enter: [u32; 3],
+    pub(crate) leave: [u32; 3],
     /// Bit k: the direction's component k is negative.
     pub(crate) octant: u32,
     pub(crate) t_min: f32,
     pub(crate) t_max: f32,
-    pub(crate) origin: Point3,
+    /// Which axes take the places of x, y and z where the ray is the z axis.
+    pub(crate) axes: [u32; 3],
+    /// The origin, by those axes.
+    pub(crate) origin: [f32; 3],
     pub(crate) watertight: Watertight<f32>,
 }
 
@@ -112,44 +119,56 @@ impl SingleRay {
     /// `None` if the ray is not valid, or is to be traced in double precision.
     #[inline(always)]
     pub(crate) fn new(ray: &Ray, near: &Near) -> Option<Self> {
-        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
-        let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let away: [f32; 3] = std::array::from_fn(|k| (origin[k] - near.centre[k]).abs());
-        let away = larger(larger(away[0], away[1]), away[2]);
-        let size = direction.map(f32::abs);
-        let unit = larger(larger(size[0], size[1]), size[2]);
+        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
+        // Four lanes each, so that one instruction sees to all.
+        let (origin, direction) = ([ox, oy, oz, 0.0], [dx, dy, dz, 1.0]);
+        let away = largest(each(|k| (origin[k] - near.centre[k]).abs()));
+        let size = each(|k| direction[k].abs());
+        let unit = largest(size);
         // What has a NaN or an infinity makes the sum a NaN, or fails to be near.
-        let sum = ((origin[0] + origin[1]) + origin[2]) * 0.0 + (size[0] + size[1] + size[2]);
-        let plain = away <= near.limit
-            && (sum <= 3e10 && (1e-10..=1e10).contains(&unit))
-            && ray.t_min <= ray.t_max;
+        let sum = (ox + oy + oz) * 0.0 + (size[0] + size[1] + size[2]);
+        let plain = (away <= near.limit)
+            & (sum <= 3e10)
+            & (unit >= 1e-10)
+            & (unit <= 1e10)
+            & (ray.t_min <= ray.t_max);
         if !plain {
             return None;
         }
-        let at = origin.map(f32::abs);
-        let at = larger(larger(at[0], at[1]), at[2]);
+        let at = largest(each(|k| origin[k].abs()));
         let pad = PAD * (away + near.half) + PAD_AT * at + f32::MIN_POSITIVE;
         let least = LEAST * unit;
-        let mut octant = 0;
-        let mut ready = Self {
-            inverse: [0.0; 3],
-            near: [0.0; 3],
-            far: [0.0; 3],
-            octant: 0,
+        let larger = each(|k| if size[k] > least { size[k] } else { least });
+        let inverse = each(|k| 1.0 / larger[k].copysign(direction[k]));
+        let pad = each(|k| pad.copysign(direction[k]));
+        let octant = direction.map(|d| d.to_bits() >> 31);
+        let watertight = Watertight::new(ray);
+        let axes = watertight.axes().map(|axis| axis as u32);
+        Some(Self {
+            inverse,
+            near: each(|k| -(origin[k] + pad[k]) * inverse[k]),
+            far: each(|k| -(origin[k] - pad[k]) * inverse[k]),
+            enter: [24 * octant[0], 8 + 24 * octant[1], 16 + 24 * octant[2]],
+            leave: [24 - 24 * octant[0], 32 - 24 * octant[1], 40 - 24 * octant[2]],
+            octant: octant[0] | octant[1] << 1 | octant[2] << 2,
             t_min: ray.t_min,
             t_max: ray.t_max,
-            origin: ray.origin,
-            watertight: Watertight::new(ray),
-        };
-        for k in 0..3 {
-            let inverse = 1.0 / larger(size[k], least).copysign(direction[k]);
-            let pad = pad.copysign(direction[k]);
-            ready.inverse[k] = inverse;
-            ready.near[k] = -(origin[k] + pad) * inverse;
-            ready.far[k] = -(origin[k] - pad) * inverse;
-            octant |= u32::from(direction[k].is_sign_negative()) << k;
-        }
-        ready.octant = octant;
-        Some(ready)
+            axes,
+            origin: axes.map(|axis| origin[axis as usize & 3]),
+            watertight,
+        })
     }
+}
+
+/// Four numbers by their places.
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f32) -> [f32; 4] {
+    [of(0), of(1), of(2), of(3)]
+}
+
+/// The largest of the first three.
+#[inline(always)]
+fn largest([x, y, z, _]: [f32; 4]) -> f32 {
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    larger(larger(x, y), z)
 }

@@ -21,11 +21,10 @@ use std::mem::MaybeUninit;
 
 use ombra_geometry::{EdgeRule, Ray};
 
-use super::super::node::{Child, WIDTH};
+use super::super::node::Child;
 use super::level::Lanes;
 use super::ray::{Near, SingleRay};
-use super::walk::{Found, STACK, Search, Slabs, Tree, Triangles, Word};
-use crate::AnyHit;
+use super::walk::{After, Found, STACK, Slabs, Tree, Word, leaf};
 
 /// How many rays are under way.
 const FLIGHT: usize = 16;
@@ -36,7 +35,7 @@ const END: Child = Child(u32::MAX);
 /// A ray under way.
 struct Under {
     ray: SingleRay,
-    best: Option<Found>,
+    best: Found,
     /// Which ray it is.
     index: usize,
     /// How many children wait, the end included.
@@ -55,76 +54,77 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
     tree: &Tree<'_>,
     near: &Near,
     rays: &[Ray],
-    mut answer: impl FnMut(usize, &Option<Found>),
+    mut answer: impl FnMut(usize, Found),
     slow: &mut dyn FnMut(usize),
 ) {
     let mut flight = [const { MaybeUninit::<Under>::uninit() }; FLIGHT];
     let flight = flight.as_mut_ptr().cast::<Under>();
-    let (mut at_nodes, mut at_leaves) = ([0_u8; FLIGHT], [0_u8; FLIGHT]);
-    let (mut nodes, mut leaves) = (0, 0);
     let mut next = 0;
-    // SAFETY: slots below `begun` were written; numbers in the lists are of such slots; the stacks of
-    // rays stay below their size as in `walk`.
+    // The slots whose rays are at nodes and those whose rays are at leaves or the end, a bit each.
+    let (mut at_nodes, mut at_leaves) = (0_u32, 0_u32);
+    // SAFETY: bits are of slots that were written; stacks stay below their size as in `walk`.
     unsafe {
-        let mut slot = 0;
-        while slot < FLIGHT {
-            match begin(tree, near, rays, &mut next, slow, flight.add(slot)) {
-                false => break,
-                true => sort_in(slot as u8, tree.root, [&mut at_nodes, &mut at_leaves], [&mut nodes, &mut leaves]),
+        for slot in 0..FLIGHT {
+            if !begin(tree, near, rays, &mut next, slow, flight.add(slot)) {
+                break;
             }
-            slot += 1;
+            // Whether it is a leaf shows when it is taken.
+            at_leaves |= 1 << slot;
         }
-        while nodes + leaves > 0 {
-            let count = nodes;
-            nodes = 0;
-            for k in 0..count {
-                let slot = at_nodes[k & (FLIGHT - 1)];
-                let under = flight.add(slot.into());
-                let child = step::<L, W>(tree, under);
-                sort_in(slot, child, [&mut at_nodes, &mut at_leaves], [&mut nodes, &mut leaves]);
+        while at_nodes | at_leaves != 0 {
+            let mut turn = at_nodes;
+            while turn != 0 {
+                let slot = turn.trailing_zeros();
+                turn &= turn - 1;
+                let child = step::<L, W>(tree, flight.add(slot as usize));
+                at_leaves |= (child.0 >> 31) << slot;
             }
-            if nodes > FLIGHT / 2 {
+            at_nodes &= !at_leaves;
+            if at_nodes.count_ones() as usize > FLIGHT / 2 {
                 continue;
             }
-            let count = leaves;
-            leaves = 0;
-            for k in 0..count {
-                let slot = at_leaves[k & (FLIGHT - 1)];
-                let under = flight.add(slot.into());
-                let mut child = *(*under).children.as_ptr().cast::<Child>().add((*under).waiting - 1);
-                let mut over = child == END;
-                if !over {
-                    (*under).waiting -= 1;
-                    over = !leaf::<L, W>(tree, child, under);
-                    child = *(*under).children.as_ptr().cast::<Child>().add((*under).waiting - 1);
-                }
-                if over {
-                    answer((*under).index, &(*under).best);
-                    if !begin(tree, near, rays, &mut next, slow, under) {
-                        continue;
+            let mut turn = at_leaves;
+            at_leaves = 0;
+            while turn != 0 {
+                let slot = turn.trailing_zeros();
+                turn &= turn - 1;
+                let under = flight.add(slot as usize);
+                let mut child = top(under);
+                if child.is_leaf() {
+                    let mut over = child == END;
+                    if !over {
+                        (*under).waiting -= 1;
+                        over = test::<L, W>(tree, child, under) == After::Over;
+                        child = top(under);
                     }
-                    child = tree.root;
+                    if over {
+                        answer((*under).index, (*under).best);
+                        if !begin(tree, near, rays, &mut next, slow, under) {
+                            continue;
+                        }
+                        child = tree.root;
+                    }
+                    ask_for(tree, child);
                 }
-                ask_for(tree, child);
-                sort_in(slot, child, [&mut at_nodes, &mut at_leaves], [&mut nodes, &mut leaves]);
+                let is_leaf = child.0 >> 31;
+                at_leaves |= is_leaf << slot;
+                at_nodes |= (1 - is_leaf) << slot;
             }
         }
     }
 }
 
-/// Appends a slot to the list of those at nodes or of those at leaves.
+/// What comes next.
+///
+/// # Safety
+/// - The slot was written.
 #[inline(always)]
-fn sort_in(
-    slot: u8,
-    child: Child,
-    [at_nodes, at_leaves]: [&mut [u8; FLIGHT]; 2],
-    [nodes, leaves]: [&mut usize; 2],
-) {
-    let is_leaf = usize::from(child.is_leaf());
-    at_nodes[*nodes & (FLIGHT - 1)] = slot;
-    *nodes += 1 - is_leaf;
-    at_leaves[*leaves & (FLIGHT - 1)] = slot;
-    *leaves += is_leaf;
+unsafe fn top(under: *const Under) -> Child {
+    // SAFETY: the caller's promise; the end at least waits.
+    unsafe {
+        let children = (&raw const (*under).children).cast::<Child>();
+        *children.add((*under).waiting - 1)
+    }
 }
 
 /// Begins with the next ray; no if there is none.
@@ -150,7 +150,7 @@ unsafe fn begin(
         // SAFETY: the caller's promise; a stack has more than two places.
         unsafe {
             (*slot).ray = ready;
-            (*slot).best = None;
+            (*slot).best = Found::NONE;
             (*slot).index = index;
             (*slot).waiting = 2;
             (*slot).children[0] = MaybeUninit::new(END);
@@ -173,11 +173,11 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
     unsafe {
         let waiting = (*under).waiting - 1;
         let children = (&raw mut (*under).children).cast::<Child>();
-        let node = tree.nodes.as_ptr().add((*children.add(waiting)).index());
+        let to = children.add(waiting);
+        let node = tree.node(*to);
         let ray = &(*under).ray;
         let (near, far) = Slabs::<L>::new(ray).entries(node, L::splat(ray.t_max));
         let what: *const Child = (&raw const (*node).child).cast();
-        let to = children.add(waiting);
         let pushed = if W::ORDERED {
             let order = (*node).order[(ray.octant & 7) as usize];
             let entries = (&raw mut (*under).entries).cast::<f32>();
@@ -193,35 +193,29 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
     }
 }
 
-/// Tests the triangles of a leaf; no if the search is over.
+/// Tests the triangles of a leaf.
 ///
 /// # Safety
 /// - As for [`stream`].
 #[inline(always)]
-unsafe fn leaf<L: Lanes, W: Word + Default>(tree: &Tree<'_>, child: Child, under: *mut Under) -> bool {
+unsafe fn test<L: Lanes, W: Word + Default>(
+    tree: &Tree<'_>,
+    child: Child,
+    under: *mut Under,
+) -> After {
     // SAFETY: the caller's promise.
     unsafe {
-        let mut word = W::default();
         let ray = &mut (*under).ray;
-        let mut search = Search {
-            word: &mut word,
-            rule: EdgeRule::Closed,
-            t_min: ray.t_min.into(),
-            t_max: ray.t_max.into(),
-            best: (*under).best,
-        };
-        let quad = tree.quads.as_ptr().add(child.quad()).cast::<f32>();
-        let triangles = Triangles::<L>::new(ray);
-        let goes_on = triangles.test(quad, child.places(), &ray.watertight, &mut search, &mut ());
-        let t_max = search.t_max as f32;
-        if t_max < ray.t_max || search.best.is_some() != (*under).best.is_some() {
-            ray.t_max = t_max;
+        let best = &mut (*under).best;
+        let (from, places) = (tree.leaf(child), child.places());
+        let word = &mut W::default();
+        let after = leaf::<L, W, ()>(from, places, ray, best, EdgeRule::Closed, word, &mut ());
+        if after == After::Hit {
             let children = (&raw mut (*under).children).cast::<Child>();
             let entries = (&raw mut (*under).entries).cast::<f32>();
-            (*under).waiting = L::keep(children, entries, (*under).waiting, t_max);
+            (*under).waiting = L::keep(children, entries, (*under).waiting, ray.t_max);
         }
-        (*under).best = search.best;
-        goes_on
+        after
     }
 }
 
@@ -231,14 +225,10 @@ fn ask_for(tree: &Tree<'_>, child: Child) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let (nodes, quads) = (tree.nodes.as_ptr().cast::<i8>(), tree.quads.as_ptr().cast());
+        let at = if child.is_leaf() { quads } else { nodes };
         // Addresses of what is not there do no harm.
-        let quads = tree.quads.as_ptr().cast::<i8>();
-        let nodes = tree.nodes.as_ptr().cast::<i8>();
-        let at = if child.is_leaf() {
-            quads.wrapping_add(child.quad() * 160)
-        } else {
-            nodes.wrapping_add(child.index() * 256)
-        };
+        let at = at.wrapping_add(child.offset());
         for line in 0..4 {
             // SAFETY: a prefetch reads nothing that a program can see.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(64 * line)) };
@@ -248,5 +238,4 @@ fn ask_for(tree: &Tree<'_>, child: Child) {
     let _ = (tree, child);
 }
 
-const _: () = assert!(FLIGHT.is_power_of_two() && FLIGHT <= 256 && WIDTH == 8);
-const _: () = assert!(matches!(AnyHit::Accept, AnyHit::Accept));
+const _: () = assert!(FLIGHT <= 32);

@@ -1,20 +1,23 @@
 //! The walk of one ray down the tree: the one body behind every question at every level.
 //!
 //! ```text
-//! push the root
-//! while something waits:
-//!     take the last that was pushed; leave it if it begins beyond the nearest hit
-//!     a node: test the boxes of its eight children at once, push those that are entered, far to near
-//!     a leaf: test its triangles, up to eight at once
+//! at the root
+//! while at a node or a leaf:
+//!     a node: test the boxes of its eight children at once;
+//!         go to the nearest that is entered, push the others, far to near
+//!     a leaf: test its triangles, up to eight at once; drop what waits beyond a new hit
+//!     where there is nowhere to go: take the last that was pushed
 //! ```
 //!
 //! Where this departs from the plain way, and why:
 //! 1. Children are pushed in the order of their middles along the octant of the direction, found
 //!    when the tree was built, and not in that of where the ray enters them: one permutation without
 //!    a branch in place of sorting. (The order by octant is that of Wald, Benthin, Boulos, "Getting
-//!    Rid of Packets", 2008, and of the compressed wide BVH of Ylitie, Karras, Laine, 2017.)
-//! 2. The nearest child is pushed too and taken again at once. What branches on how many children
-//!    are entered is predicted wrongly half of the time.
+//!    Rid of Packets", 2008, and of the compressed wide BVH of Ylitie, Karras, Laine, 2017.) On a
+//!    hall of 66 000 triangles, a scan of 870 000 and a city of 2 000 000, rays visit as many nodes
+//!    as with the exact order, to one part in a hundred.
+//! 2. What waits beyond a new hit is dropped when the hit is found, eight at a time, so nothing has to
+//!    be compared when it is taken.
 //! 3. Triangles are turned away by the first half of the watertight test, eight at once and to the
 //!    bit as the scalar test does; what is left, seldom more than one, is decided by the scalar
 //!    test's own second half. So all levels give the answers of the scalar test.
@@ -23,11 +26,11 @@
 use ombra_geometry::triangle::Watertight;
 use ombra_geometry::{Crossing, EdgeRule, Vector3};
 
-use super::level::Lanes;
 use super::super::node::{Child, Node, WIDTH};
 use super::super::quad::Quad;
+use super::level::Lanes;
 use super::ray::SingleRay;
-use crate::{AnyHit, Counter};
+use crate::{AnyHit, Candidate, Counter};
 
 /// No node lies deeper than this.
 pub(crate) const MAX_DEPTH: usize = 64;
@@ -43,11 +46,51 @@ pub(crate) struct Tree<'a> {
     pub(crate) quads: &'a [Quad],
 }
 
+impl Tree<'_> {
+    /// Where a node lies.
+    #[inline(always)]
+    pub(super) fn node(&self, child: Child) -> *const Node {
+        self.nodes.as_ptr().wrapping_byte_add(child.offset())
+    }
+
+    /// Where the numbers of a leaf lie.
+    #[inline(always)]
+    pub(super) fn leaf(&self, child: Child) -> *const f32 {
+        let quads = self.quads.as_ptr();
+        quads.wrapping_byte_add(child.offset()).cast()
+    }
+}
+
 /// A hit of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Found {
-    pub(crate) crossing: Crossing,
+    pub(crate) t: f32,
+    pub(crate) u: f32,
+    pub(crate) v: f32,
     pub(crate) triangle: u32,
+}
+
+impl Found {
+    /// No hit yet.
+    pub(super) const NONE: Self = Self {
+        t: f32::INFINITY,
+        u: 0.0,
+        v: 0.0,
+        triangle: u32::MAX,
+    };
+
+    /// As others see it.
+    #[inline]
+    pub(crate) fn candidate(&self) -> Candidate {
+        let Self { t, u, v, .. } = *self;
+        Candidate::new(Crossing { t: t.into(), u, v }, self.triangle)
+    }
+
+    /// `None` if there was no hit.
+    #[inline(always)]
+    pub(super) fn some(self) -> Option<Self> {
+        (self.triangle != u32::MAX).then_some(self)
+    }
 }
 
 /// What to make of a hit.
@@ -89,13 +132,15 @@ impl Word for Said<'_> {
     }
 }
 
-/// The search of one ray, as far as it has come.
-pub(super) struct Search<'a, W> {
-    pub(super) word: &'a mut W,
-    pub(super) rule: EdgeRule,
-    pub(super) t_min: f64,
-    pub(super) t_max: f64,
-    pub(super) best: Option<Found>,
+/// How a search goes on after a leaf.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum After {
+    /// As before.
+    Nothing,
+    /// With a nearer end.
+    Hit,
+    /// Not at all.
+    Over,
 }
 
 /// Walks down the tree.
@@ -107,7 +152,7 @@ pub(super) struct Search<'a, W> {
 #[inline(always)]
 pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
     tree: &Tree<'_>,
-    ray: &SingleRay,
+    ray: &mut SingleRay,
     rule: EdgeRule,
     word: &mut W,
     counter: &mut C,
@@ -116,26 +161,19 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
     let mut entries = [const { std::mem::MaybeUninit::<f32>::uninit() }; STACK];
     let children = children.as_mut_ptr().cast::<Child>();
     let entries = entries.as_mut_ptr().cast::<f32>();
-    let mut search = Search {
-        word,
-        rule,
-        t_min: ray.t_min.into(),
-        t_max: ray.t_max.into(),
-        best: None,
-    };
+    let mut best = Found::NONE;
     // SAFETY: `waiting` stays below the number of places, since a tree is at most `MAX_DEPTH` deep;
     // what is read was written; children name what is there (the caller's promise).
     unsafe {
         let slabs = Slabs::<L>::new(ray);
-        let triangles = Triangles::<L>::new(ray);
-        let mut t_max = ray.t_max;
+        let mut t_max = L::splat(ray.t_max);
         let mut waiting = 0;
         let mut child = tree.root;
-        'search: loop {
+        loop {
             while !child.is_leaf() {
                 counter.node();
-                let node = tree.nodes.as_ptr().add(child.index());
-                let (near, far) = slabs.entries(node, L::splat(t_max));
+                let node = tree.node(child);
+                let (near, far) = slabs.entries(node, t_max);
                 let entered = near.at_most(far);
                 let what: *const Child = (&raw const (*node).child).cast();
                 if entered & entered.wrapping_sub(1) == 0 {
@@ -144,61 +182,40 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
                         child = *what.add(entered.trailing_zeros() as usize);
                         continue;
                     }
-                    match next::<W>(children, entries, &mut waiting, t_max) {
-                        Some(next) => child = next,
-                        None => break 'search,
+                    if waiting == 0 {
+                        return best.some();
                     }
+                    waiting -= 1;
+                    child = *children.add(waiting);
                     continue;
                 }
                 let to = children.add(waiting);
                 let nearest = if W::ORDERED {
                     let order = (*node).order[(ray.octant & 7) as usize];
                     let pushed = near.push(far, order, what, to, entries.add(waiting));
-                    order >> (3 * pushed.ilog2()) & 7
+                    order >> (3 * (31 - pushed.leading_zeros())) & 7
                 } else {
                     near.push_unordered(far, what, to);
-                    entered.ilog2()
+                    31 - entered.leading_zeros()
                 };
                 waiting += entered.count_ones() as usize - 1;
                 child = *what.add(nearest as usize);
             }
-            let quad = tree.quads.as_ptr().add(child.quad()).cast::<f32>();
-            if !triangles.test(quad, child.places(), &ray.watertight, &mut search, counter) {
-                break;
+            match leaf::<L, W, C>(tree.leaf(child), child.places(), ray, &mut best, rule, word, counter) {
+                After::Nothing => {}
+                After::Over => return best.some(),
+                After::Hit => {
+                    t_max = L::splat(ray.t_max);
+                    waiting = L::keep(children, entries, waiting, ray.t_max);
+                }
             }
-            if W::ORDERED {
-                t_max = search.t_max as f32;
+            if waiting == 0 {
+                return best.some();
             }
-            match next::<W>(children, entries, &mut waiting, t_max) {
-                Some(next) => child = next,
-                None => break,
-            }
+            waiting -= 1;
+            child = *children.add(waiting);
         }
     }
-    search.best
-}
-
-/// What waits and is not beyond `t_max`, the last that was pushed first.
-///
-/// # Safety
-/// - So many children and entries were written.
-#[inline(always)]
-unsafe fn next<W: Word>(
-    children: *const Child,
-    entries: *const f32,
-    waiting: &mut usize,
-    t_max: f32,
-) -> Option<Child> {
-    while *waiting > 0 {
-        *waiting -= 1;
-        // SAFETY: the caller's promise.
-        unsafe {
-            if !W::ORDERED || *entries.add(*waiting) <= t_max {
-                return Some(*children.add(*waiting));
-            }
-        }
-    }
-    None
 }
 
 /// Three numbers, each eight times. No closure: it would not have the level's instructions.
@@ -206,7 +223,7 @@ unsafe fn next<W: Word>(
 /// # Safety
 /// - See [`walk`].
 #[inline(always)]
-unsafe fn splat<L: Lanes>([x, y, z]: [f32; 3]) -> [L; 3] {
+unsafe fn splat<L: Lanes>(x: f32, y: f32, z: f32) -> [L; 3] {
     // SAFETY: the caller's promise.
     unsafe { [L::splat(x), L::splat(y), L::splat(z)] }
 }
@@ -218,9 +235,8 @@ pub(super) struct Slabs<L> {
     near: [L; 3],
     far: [L; 3],
     t_min: L,
-    /// Where the planes of the near side begin in a node, by axis, in numbers; those of the far side
-    /// begin as far from the middle.
-    first: [usize; 3],
+    enter: [usize; 3],
+    leave: [usize; 3],
 }
 
 impl<L: Lanes> Slabs<L> {
@@ -228,18 +244,23 @@ impl<L: Lanes> Slabs<L> {
     /// - See [`walk`].
     #[inline(always)]
     pub(super) unsafe fn new(ray: &SingleRay) -> Self {
-        let first = |k: usize| {
-            let backward = (ray.octant >> k & 1) as usize;
-            (k + 3 * backward) * WIDTH
-        };
+        let SingleRay {
+            inverse,
+            near,
+            far,
+            enter,
+            leave,
+            ..
+        } = ray;
         // SAFETY: the caller's promise.
         unsafe {
             Self {
-                inverse: splat(ray.inverse),
-                near: splat(ray.near),
-                far: splat(ray.far),
+                inverse: splat(inverse[0], inverse[1], inverse[2]),
+                near: splat(near[0], near[1], near[2]),
+                far: splat(far[0], far[1], far[2]),
                 t_min: L::splat(ray.t_min),
-                first: [first(0), first(1), first(2)],
+                enter: [enter[0] as usize, enter[1] as usize, enter[2] as usize],
+                leave: [leave[0] as usize, leave[1] as usize, leave[2] as usize],
             }
         }
     }
@@ -251,132 +272,50 @@ impl<L: Lanes> Slabs<L> {
     #[inline(always)]
     pub(super) unsafe fn entries(&self, node: *const Node, t_max: L) -> (L, L) {
         let planes = node.cast::<f32>();
+        let Self {
+            inverse: [ix, iy, iz],
+            near: [nx, ny, nz],
+            far: [fx, fy, fz],
+            enter: [ex, ey, ez],
+            leave: [lx, ly, lz],
+            t_min,
+        } = *self;
         // SAFETY: the six lists of planes are the first numbers of a node.
         unsafe {
-            let (mut near, mut far) = (self.t_min, t_max);
-            let mut enter = [self.t_min; 3];
-            let mut leave = [t_max; 3];
-            for k in 0..3 {
-                let first = self.first[k];
-                let opposite = (3 + 2 * k) * WIDTH - first;
-                enter[k] = L::load(planes.add(first)).multiply_add(self.inverse[k], self.near[k]);
-                leave[k] = L::load(planes.add(opposite)).multiply_add(self.inverse[k], self.far[k]);
-            }
-            near = enter[0].larger(enter[1]).larger(enter[2].larger(near));
-            far = leave[0].smaller(leave[1]).smaller(leave[2].smaller(far));
+            let x = L::load(planes.add(ex)).multiply_add(ix, nx);
+            let y = L::load(planes.add(ey)).multiply_add(iy, ny);
+            let z = L::load(planes.add(ez)).multiply_add(iz, nz);
+            let near = x.larger(y).larger(z.larger(t_min));
+            let x = L::load(planes.add(lx)).multiply_add(ix, fx);
+            let y = L::load(planes.add(ly)).multiply_add(iy, fy);
+            let z = L::load(planes.add(lz)).multiply_add(iz, fz);
+            let far = x.smaller(y).smaller(z.smaller(t_max));
             (near, far)
         }
     }
 }
 
-/// The first half of the watertight test, for eight triangles.
-#[derive(Clone, Copy)]
-pub(super) struct Triangles<L> {
-    /// Which component takes the place of x, y and z.
+/// The corners of eight triangles that begin at `from`, relative to the origin and sheared.
+///
+/// # Safety
+/// - See [`leaf`].
+#[inline(always)]
+unsafe fn corners<L: Lanes>(
+    from: *const f32,
     axes: [usize; 3],
     origin: [L; 3],
     shear: [L; 2],
-}
-
-impl<L: Lanes> Triangles<L> {
-    /// # Safety
-    /// - See [`walk`].
-    #[inline(always)]
-    pub(super) unsafe fn new(ray: &SingleRay) -> Self {
-        let axes = ray.watertight.axes();
-        let shear = ray.watertight.shear();
-        // SAFETY: the caller's promise.
-        unsafe {
-            Self {
-                axes: axes.map(|axis| axis as usize),
-                origin: splat(axes.map(|axis| ray.origin[axis])),
-                shear: [L::splat(shear.x), L::splat(shear.y)],
-            }
-        }
-    }
-
-    /// The corners that begin at `from`, relative to the origin and sheared.
-    ///
-    /// # Safety
-    /// - See [`test`](Self::test).
-    #[inline(always)]
-    unsafe fn corner(&self, from: *const f32, places: usize) -> [L; 3] {
-        // SAFETY: the caller's promise.
-        unsafe {
-            let x = L::load(from.add(self.axes[0] * places)).minus(self.origin[0]);
-            let y = L::load(from.add(self.axes[1] * places)).minus(self.origin[1]);
-            let z = L::load(from.add(self.axes[2] * places)).minus(self.origin[2]);
-            [
-                x.minus(self.shear[0].times(z)),
-                y.minus(self.shear[1].times(z)),
-                z,
-            ]
-        }
-    }
-
-    /// Tests a leaf; no if the search is over.
-    ///
-    /// # Safety
-    /// - See [`walk`]; and there is a leaf of so many places.
-    #[inline(always)]
-    pub(super) unsafe fn test<W: Word, C: Counter>(
-        &self,
-        leaf: *const f32,
-        places: usize,
-        watertight: &Watertight<f32>,
-        search: &mut Search<'_, W>,
-        counter: &mut C,
-    ) -> bool {
-        // SAFETY: of a leaf of four places eight numbers are read from the beginning of each of nine
-        // components, the last four of them not being those of triangles; after the nine comes a
-        // tenth, so all lie in the leaf.
-        unsafe {
-            let a = self.corner(leaf, places);
-            let b = self.corner(leaf.add(3 * places), places);
-            let c = self.corner(leaf.add(6 * places), places);
-            let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
-            let (least, most) = (u.smaller(v).smaller(w), u.larger(v).larger(w));
-            // Not on both sides; and where a corner is NaN, no.
-            let zero = L::splat(0.0);
-            let inside = zero.at_most(least) | most.at_most(zero);
-            let mut left = inside & (255 >> (8 - places));
-            if C::COUNTS {
-                for k in 0..places {
-                    let number = (*leaf.add(9 * places + k)).to_bits();
-                    if number != u32::MAX {
-                        counter.test();
-                    }
-                }
-            }
-            if left == 0 {
-                return true;
-            }
-            let mut sheared = [[0.0_f32; 8]; 9];
-            for k in 0..3 {
-                a[k].store(sheared[k].as_mut_ptr());
-                b[k].store(sheared[3 + k].as_mut_ptr());
-                c[k].store(sheared[6 + k].as_mut_ptr());
-            }
-            while left != 0 {
-                let k = left.trailing_zeros() as usize & 7;
-                left &= left - 1;
-                let corner = |which: usize| {
-                    Vector3::new(
-                        sheared[3 * which][k],
-                        sheared[3 * which + 1][k],
-                        sheared[3 * which + 2][k],
-                    )
-                };
-                let corners = [corner(0), corner(1), corner(2)];
-                if let Some(crossing) = watertight.decide(corners, search.rule) {
-                    let triangle = (*leaf.add(9 * places + k)).to_bits();
-                    if !search.report(Found { crossing, triangle }) {
-                        return false;
-                    }
-                }
-            }
-            true
-        }
+) -> [L; 3] {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let x = L::load(from.add(axes[0])).minus(origin[0]);
+        let y = L::load(from.add(axes[1])).minus(origin[1]);
+        let z = L::load(from.add(axes[2])).minus(origin[2]);
+        [
+            x.minus(shear[0].times(z)),
+            y.minus(shear[1].times(z)),
+            z,
+        ]
     }
 }
 
@@ -390,25 +329,117 @@ unsafe fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
     unsafe { p[0].times(q[1]).minus(p[1].times(q[0])) }
 }
 
-impl<W: Word> Search<'_, W> {
-    /// Takes in a crossing; no if the search is over.
-    #[inline(always)]
-    fn report(&mut self, found: Found) -> bool {
-        let t = found.crossing.t;
-        if !(self.t_min <= t && t <= self.t_max && t < f64::INFINITY) {
-            return true;
+/// Tests the triangles of a leaf.
+///
+/// # Safety
+/// - See [`walk`]; and there is a leaf of so many places.
+#[inline(always)]
+pub(super) unsafe fn leaf<L: Lanes, W: Word, C: Counter>(
+    leaf: *const f32,
+    places: usize,
+    ray: &mut SingleRay,
+    best: &mut Found,
+    rule: EdgeRule,
+    word: &mut W,
+    counter: &mut C,
+) -> After {
+    // SAFETY: of a leaf of four places eight numbers are read from the beginning of each of nine
+    // components, the last four of them not being those of triangles; after the nine comes a
+    // tenth, so all lie in the leaf.
+    unsafe {
+        let shear = ray.watertight.shear();
+        let shear = [L::splat(shear.x), L::splat(shear.y)];
+        let origin = splat(ray.origin[0], ray.origin[1], ray.origin[2]);
+        let axes = [
+            ray.axes[0] as usize * places,
+            ray.axes[1] as usize * places,
+            ray.axes[2] as usize * places,
+        ];
+        let a = corners::<L>(leaf, axes, origin, shear);
+        let b = corners::<L>(leaf.add(3 * places), axes, origin, shear);
+        let c = corners::<L>(leaf.add(6 * places), axes, origin, shear);
+        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
+        let (least, most) = (u.smaller(v).smaller(w), u.larger(v).larger(w));
+        // Not on both sides; and where a corner is NaN, no.
+        let zero = L::splat(0.0);
+        let inside = zero.at_most(least) | most.at_most(zero);
+        let mut left = inside & (255 >> (8 - places));
+        let numbers = leaf.add(9 * places);
+        if C::COUNTS {
+            for k in 0..places {
+                if (*numbers.add(k)).to_bits() != u32::MAX {
+                    counter.test();
+                }
+            }
         }
-        // At the same t the smaller number comes first.
-        let behind = |best: &Found| t == best.crossing.t && best.triangle <= found.triangle;
-        if self.best.as_ref().is_some_and(behind) {
-            return true;
+        let mut after = After::Nothing;
+        if left == 0 {
+            return after;
         }
-        match self.word.on(&found) {
-            AnyHit::Ignore => true,
-            answer => {
-                self.best = Some(found);
-                self.t_max = t;
-                answer == AnyHit::Accept
+        let mut sheared = [std::mem::MaybeUninit::<[f32; 8]>::uninit(); 9];
+        for k in 0..3 {
+            a[k].store(sheared[k].as_mut_ptr().cast());
+            b[k].store(sheared[3 + k].as_mut_ptr().cast());
+            c[k].store(sheared[6 + k].as_mut_ptr().cast());
+        }
+        let sheared = sheared.as_ptr().cast::<f32>();
+        while left != 0 {
+            let k = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let triangle = (*numbers.add(k)).to_bits();
+            match decided(sheared.add(k), triangle, ray, best, rule, word) {
+                After::Nothing => {}
+                After::Hit => after = After::Hit,
+                After::Over => return After::Over,
+            }
+        }
+        after
+    }
+}
+
+/// The second half of the test, for one triangle.
+///
+/// # Safety
+/// - The nine components of the sheared corners may be read, eight numbers apart.
+#[inline(always)]
+unsafe fn decided<W: Word>(
+    sheared: *const f32,
+    triangle: u32,
+    ray: &mut SingleRay,
+    best: &mut Found,
+    rule: EdgeRule,
+    word: &mut W,
+) -> After {
+    // SAFETY: the caller's promise.
+    let corner = |which: usize| unsafe {
+        Vector3::new(
+            *sheared.add(24 * which),
+            *sheared.add(24 * which + 8),
+            *sheared.add(24 * which + 16),
+        )
+    };
+    let watertight: &Watertight<f32> = &ray.watertight;
+    let Some(Crossing { t, u, v }) = watertight.decide([corner(0), corner(1), corner(2)], rule)
+    else {
+        return After::Nothing;
+    };
+    // Exact: the test rounded it to a single.
+    let t = t as f32;
+    let in_range = (ray.t_min <= t) & (t <= ray.t_max) & (t < f32::INFINITY);
+    // At the same t as the best hit the smaller number comes first.
+    if !in_range || (t == best.t && best.triangle <= triangle) {
+        return After::Nothing;
+    }
+    let found = Found { t, u, v, triangle };
+    match word.on(&found) {
+        AnyHit::Ignore => After::Nothing,
+        answer => {
+            *best = found;
+            ray.t_max = t;
+            if answer == AnyHit::Accept {
+                After::Hit
+            } else {
+                After::Over
             }
         }
     }
