@@ -8,6 +8,8 @@ use super::node::{Child, Node, WIDTH};
 pub(crate) struct WideTree {
     pub(crate) root: Child,
     pub(crate) nodes: Vec<Node>,
+    /// How many levels of nodes there are.
+    pub(crate) depth: usize,
 }
 
 /// Collapses a binary tree: a node takes in its children, then again and again the children of that
@@ -15,22 +17,30 @@ pub(crate) struct WideTree {
 /// IEEE Symposium on Interactive Ray Tracing 2008.
 pub(crate) fn collapse(binary: &BinaryTree) -> WideTree {
     let mut nodes = Vec::with_capacity(binary.nodes.len() / 8 + 1);
+    let mut depth = 1;
     let root = match binary.nodes.first() {
         None => {
             nodes.push(Node::EMPTY);
             Child::node(0)
         }
-        Some(_) => lay(binary, 0, &mut nodes),
+        Some(_) => lay(binary, 0, 0, &mut nodes, &mut depth),
     };
-    WideTree { root, nodes }
+    WideTree { root, nodes, depth }
 }
 
 /// Lays out what is below a node of the binary tree.
-fn lay(binary: &BinaryTree, index: usize, nodes: &mut Vec<Node>) -> Child {
+fn lay(
+    binary: &BinaryTree,
+    index: usize,
+    above: usize,
+    nodes: &mut Vec<Node>,
+    depth: &mut usize,
+) -> Child {
     let node = &binary.nodes[index];
     if node.is_leaf() {
         return Child::list(node.first_or_right as usize, node.count as usize);
     }
+    *depth = (above + 1).max(*depth);
     let mut below = [0; WIDTH];
     [below[0], below[1]] = binary.children(index);
     let mut count = 2;
@@ -46,7 +56,7 @@ fn lay(binary: &BinaryTree, index: usize, nodes: &mut Vec<Node>) -> Child {
     let place = nodes.len();
     nodes.push(Node::EMPTY);
     for (k, &child) in below[..count].iter().enumerate() {
-        let what = lay(binary, child, nodes);
+        let what = lay(binary, child, above + 1, nodes, depth);
         nodes[place].set(k, &binary.nodes[child].bounds, what);
     }
     nodes[place].sort();

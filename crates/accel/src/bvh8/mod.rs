@@ -134,6 +134,7 @@ impl Wide {
                 root: self.tree.root,
                 nodes: &self.tree.nodes,
                 quads,
+                stack: kernel::stack(self.tree.depth),
             }),
         }
     }

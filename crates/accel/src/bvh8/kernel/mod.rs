@@ -14,4 +14,4 @@ pub use level::Level;
 
 pub(super) use dispatch::{any, any_many, closest, closest_many, search, search_counted};
 pub(super) use ray::{Near, SingleRay};
-pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree};
+pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree, stack};

@@ -19,15 +19,15 @@
 
 use std::mem::MaybeUninit;
 
-use ombra_geometry::{EdgeRule, Ray};
+use ombra_geometry::Ray;
 
 use super::super::node::Child;
-use super::level::Lanes;
+use super::level::{Lanes, WideLanes as _};
 use super::ray::{Near, SingleRay};
-use super::walk::{After, Found, STACK, Slabs, Tree, Word, leaf};
+use super::walk::{Found, STACK, Sheared, Slabs, Tree, Word, shear};
 
 /// How many rays are under way.
-const FLIGHT: usize = 16;
+const FLIGHT: usize = 32;
 
 /// What lies below all that waits: the end.
 const END: Child = Child(u32::MAX);
@@ -40,8 +40,14 @@ struct Under {
     index: usize,
     /// How many children wait, the end included.
     waiting: usize,
-    children: [MaybeUninit<Child>; STACK],
-    entries: [MaybeUninit<f32>; STACK],
+    children: *mut Child,
+    entries: *mut f32,
+    /// Of the leaf that it is at: what is left to be tested or taken in, a bit each.
+    left: u32,
+    /// The numbers of its triangles.
+    numbers: *const f32,
+    /// Its sheared corners, then the t, u and v of its hits.
+    sheared: [MaybeUninit<[f32; 8]>; 9],
 }
 
 /// Walks with each of many rays, and tells the answers by the numbers of the rays, in no promised
@@ -59,59 +65,101 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
 ) {
     let mut flight = [const { MaybeUninit::<Under>::uninit() }; FLIGHT];
     let flight = flight.as_mut_ptr().cast::<Under>();
+    // Stacks lie as near to one another as this tree allows, so that they stay in the nearest cache.
+    let mut children = [const { MaybeUninit::<Child>::uninit() }; FLIGHT * STACK];
+    let mut entries = [const { MaybeUninit::<f32>::uninit() }; FLIGHT * STACK];
+    let stack = tree.stack.min(STACK);
     let mut next = 0;
-    // The slots whose rays are at nodes and those whose rays are at leaves or the end, a bit each.
-    let (mut at_nodes, mut at_leaves) = (0_u32, 0_u32);
+    // The slots whose rays are at nodes, at leaves, at their end, and the free ones: a bit each.
+    let (mut at_nodes, mut at_leaves, mut over) = (0_u32, 0_u32, 0_u32);
+    let mut free = ALL;
     // SAFETY: bits are of slots that were written; stacks stay below their size as in `walk`.
     unsafe {
         for slot in 0..FLIGHT {
-            if !begin(tree, near, rays, &mut next, slow, flight.add(slot)) {
-                break;
-            }
-            // Whether it is a leaf shows when it is taken.
-            at_leaves |= 1 << slot;
+            let under = flight.add(slot);
+            (*under).children = children.as_mut_ptr().cast::<Child>().add(slot * stack);
+            (*under).entries = entries.as_mut_ptr().cast::<f32>().add(slot * stack);
         }
-        while at_nodes | at_leaves != 0 {
-            let mut turn = at_nodes;
-            while turn != 0 {
-                let slot = turn.trailing_zeros();
-                turn &= turn - 1;
-                let child = step::<L, W>(tree, flight.add(slot as usize));
-                at_leaves |= (child.0 >> 31) << slot;
-            }
-            at_nodes &= !at_leaves;
-            if at_nodes.count_ones() as usize > FLIGHT / 2 {
-                continue;
-            }
-            let mut turn = at_leaves;
-            at_leaves = 0;
-            while turn != 0 {
-                let slot = turn.trailing_zeros();
-                turn &= turn - 1;
-                let under = flight.add(slot as usize);
-                let mut child = top(under);
-                if child.is_leaf() {
-                    let mut over = child == END;
-                    if !over {
-                        (*under).waiting -= 1;
-                        over = test::<L, W>(tree, child, under) == After::Over;
-                        child = top(under);
-                    }
-                    if over {
-                        answer((*under).index, (*under).best);
-                        if !begin(tree, near, rays, &mut next, slow, under) {
-                            continue;
-                        }
-                        child = tree.root;
-                    }
-                    ask_for(tree, child);
+        loop {
+            while free != 0 {
+                let slot = free.trailing_zeros();
+                let begun = begin(tree, near, rays, &mut next, slow, flight.add(slot as usize));
+                if !begun {
+                    break;
                 }
-                let is_leaf = child.0 >> 31;
+                free &= free - 1;
+                let is_leaf = tree.root.0 >> 31;
                 at_leaves |= is_leaf << slot;
                 at_nodes |= (1 - is_leaf) << slot;
             }
+            if free == ALL {
+                return;
+            }
+            // Until few are at nodes, so that those at leaves are many.
+            while at_nodes.count_ones() as usize > FLIGHT / 2 || (at_leaves | over == 0) {
+                let mut turn = at_nodes;
+                at_nodes = 0;
+                while turn != 0 {
+                    let slot = turn.trailing_zeros();
+                    turn &= turn - 1;
+                    let child = step::<L, W>(tree, flight.add(slot as usize));
+                    sort_in(child, slot, [&mut at_nodes, &mut at_leaves, &mut over]);
+                }
+            }
+            let (leaves, mut left, mut hit) = (at_leaves, 0, 0);
+            let mut turn = leaves;
+            while turn != 0 {
+                let slot = turn.trailing_zeros();
+                turn &= turn - 1;
+                let some = first_half::<L>(tree, flight.add(slot as usize));
+                left |= u32::from(some) << slot;
+            }
+            while left != 0 {
+                let slot = left.trailing_zeros();
+                left &= left - 1;
+                let some = second_half::<L>(flight.add(slot as usize));
+                hit |= u32::from(some) << slot;
+            }
+            let mut turn = hit;
+            while turn != 0 {
+                let slot = turn.trailing_zeros();
+                turn &= turn - 1;
+                take_in::<L, W>(flight.add(slot as usize));
+            }
+            at_leaves = 0;
+            // Without an order one hit is enough.
+            let enough = if W::ORDERED { 0 } else { hit };
+            over |= enough;
+            let mut turn = leaves & !enough;
+            while turn != 0 {
+                let slot = turn.trailing_zeros();
+                turn &= turn - 1;
+                let child = top(flight.add(slot as usize));
+                ask_for(tree, child);
+                sort_in(child, slot, [&mut at_nodes, &mut at_leaves, &mut over]);
+            }
+            free |= over;
+            while over != 0 {
+                let slot = over.trailing_zeros();
+                over &= over - 1;
+                let under = flight.add(slot as usize);
+                answer((*under).index, (*under).best);
+            }
         }
     }
+}
+
+/// Every slot.
+const ALL: u32 = (1_u64 << FLIGHT).wrapping_sub(1) as u32;
+
+/// Sets the bit of a slot by what comes next, without a branch.
+#[inline(always)]
+fn sort_in(child: Child, slot: u32, [at_nodes, at_leaves, over]: [&mut u32; 3]) {
+    let is_end = u32::from(child == END);
+    let is_leaf = child.0 >> 31;
+    *over |= is_end << slot;
+    *at_leaves |= (is_leaf - is_end) << slot;
+    *at_nodes |= (1 - is_leaf) << slot;
 }
 
 /// What comes next.
@@ -122,8 +170,7 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
 unsafe fn top(under: *const Under) -> Child {
     // SAFETY: the caller's promise; the end at least waits.
     unsafe {
-        let children = (&raw const (*under).children).cast::<Child>();
-        *children.add((*under).waiting - 1)
+        *(*under).children.add((*under).waiting - 1)
     }
 }
 
@@ -153,10 +200,10 @@ unsafe fn begin(
             (*slot).best = Found::NONE;
             (*slot).index = index;
             (*slot).waiting = 2;
-            (*slot).children[0] = MaybeUninit::new(END);
-            (*slot).children[1] = MaybeUninit::new(tree.root);
-            (*slot).entries[0] = MaybeUninit::new(f32::NEG_INFINITY);
-            (*slot).entries[1] = MaybeUninit::new(f32::NEG_INFINITY);
+            *(*slot).children = END;
+            *(*slot).children.add(1) = tree.root;
+            *(*slot).entries = f32::NEG_INFINITY;
+            *(*slot).entries.add(1) = f32::NEG_INFINITY;
         }
         return true;
     }
@@ -172,7 +219,7 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
     // SAFETY: the caller's promise.
     unsafe {
         let waiting = (*under).waiting - 1;
-        let children = (&raw mut (*under).children).cast::<Child>();
+        let children = (*under).children;
         let to = children.add(waiting);
         let node = tree.node(*to);
         let ray = &(*under).ray;
@@ -180,8 +227,7 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
         let what: *const Child = (&raw const (*node).child).cast();
         let pushed = if W::ORDERED {
             let order = (*node).order[(ray.octant & 7) as usize];
-            let entries = (&raw mut (*under).entries).cast::<f32>();
-            near.push(far, order, what, to, entries.add(waiting))
+            near.push(far, order, what, to, (*under).entries.add(waiting))
         } else {
             near.push_unordered(far, what, to)
         };
@@ -193,29 +239,109 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
     }
 }
 
-/// Tests the triangles of a leaf.
+/// The first half of the test of the triangles of the leaf that a ray is at; whether any is left.
 ///
 /// # Safety
 /// - As for [`stream`].
 #[inline(always)]
-unsafe fn test<L: Lanes, W: Word + Default>(
-    tree: &Tree<'_>,
-    child: Child,
-    under: *mut Under,
-) -> After {
+unsafe fn first_half<L: Lanes>(tree: &Tree<'_>, under: *mut Under) -> bool {
     // SAFETY: the caller's promise.
     unsafe {
-        let ray = &mut (*under).ray;
-        let best = &mut (*under).best;
+        (*under).waiting -= 1;
+        let child = *(*under).children.add((*under).waiting);
         let (from, places) = (tree.leaf(child), child.places());
-        let word = &mut W::default();
-        let after = leaf::<L, W, ()>(from, places, ray, best, EdgeRule::Closed, word, &mut ());
-        if after == After::Hit {
-            let children = (&raw mut (*under).children).cast::<Child>();
-            let entries = (&raw mut (*under).entries).cast::<f32>();
-            (*under).waiting = L::keep(children, entries, (*under).waiting, ray.t_max);
+        let Sheared { a, b, c, left } = shear::<L>(from, places, &(*under).ray);
+        let sheared = (&raw mut (*under).sheared).cast::<f32>();
+        a[0].store(sheared);
+        a[1].store(sheared.add(8));
+        a[2].store(sheared.add(16));
+        b[0].store(sheared.add(24));
+        b[1].store(sheared.add(32));
+        b[2].store(sheared.add(40));
+        c[0].store(sheared.add(48));
+        c[1].store(sheared.add(56));
+        c[2].store(sheared.add(64));
+        (*under).left = left;
+        (*under).numbers = from.add(9 * places);
+        left != 0
+    }
+}
+
+/// The second half, for all that is left at once; whether there is a hit.
+///
+/// # Safety
+/// - After [`first_half`].
+#[inline(always)]
+unsafe fn second_half<L: Lanes>(under: *mut Under) -> bool {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let sheared = (&raw const (*under).sheared).cast::<f32>();
+        let wide = |k: usize| sheared.add(8 * k);
+        let (ax, ay, az) = (widened::<L>(wide(0)), widened::<L>(wide(1)), widened::<L>(wide(2)));
+        let (bx, by, bz) = (widened::<L>(wide(3)), widened::<L>(wide(4)), widened::<L>(wide(5)));
+        let (cx, cy, cz) = (widened::<L>(wide(6)), widened::<L>(wide(7)), widened::<L>(wide(8)));
+        let u = cx.times(by).minus(cy.times(bx));
+        let v = ax.times(cy).minus(ay.times(cx));
+        let w = bx.times(ay).minus(by.times(ax));
+        let zero = L::Wide::splat(0.0);
+        let least = u.smaller(v).smaller(w);
+        let most = u.larger(v).larger(w);
+        let outside = least.below(zero) & zero.below(most);
+        let det = u.plus(v).plus(w);
+        let flat = !(det.below(zero) | zero.below(det));
+        let inverse = L::Wide::splat(1.0).over(det);
+        let (u, v, w) = (u.times(inverse), v.times(inverse), w.times(inverse));
+        let z = u.times(az).plus(v.times(bz)).plus(w.times(cz));
+        let per_z = L::Wide::splat((*under).ray.watertight.shear().z.into());
+        let t = z.times(per_z).rounded();
+        let (t_min, t_max) = (L::splat((*under).ray.t_min), L::splat((*under).ray.t_max));
+        let in_range = t_min.at_most(t) & t.at_most(t_max) & t.at_most(L::splat(f32::MAX));
+        let hits = (*under).left & !outside & !flat & in_range;
+        (*under).left = hits;
+        let found = (&raw mut (*under).sheared).cast::<f32>();
+        t.store(found);
+        v.rounded().store(found.add(8));
+        w.rounded().store(found.add(16));
+        hits != 0
+    }
+}
+
+/// Eight singles in double precision.
+///
+/// # Safety
+/// - They may be read.
+#[inline(always)]
+unsafe fn widened<L: Lanes>(from: *const f32) -> L::Wide {
+    // SAFETY: the caller's promise.
+    unsafe { L::Wide::of(L::load(from)) }
+}
+
+/// Makes the best of the hits of a leaf the best of the ray, and drops what waits beyond it.
+///
+/// # Safety
+/// - After [`second_half`] said yes.
+#[inline(always)]
+unsafe fn take_in<L: Lanes, W: Word>(under: *mut Under) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let found = (&raw const (*under).sheared).cast::<f32>();
+        let mut left = (*under).left;
+        while left != 0 {
+            let k = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let (t, triangle) = (*found.add(k), (*(*under).numbers.add(k)).to_bits());
+            let best = &mut (*under).best;
+            // At the same t the smaller number comes first.
+            if t < best.t || (t == best.t && triangle < best.triangle) {
+                let (u, v) = (*found.add(8 + k), *found.add(16 + k));
+                *best = Found { t, u, v, triangle };
+            }
         }
-        after
+        if W::ORDERED {
+            (*under).ray.t_max = (*under).best.t;
+            let (children, entries) = ((*under).children, (*under).entries);
+            (*under).waiting = L::keep(children, entries, (*under).waiting, (*under).best.t);
+        }
     }
 }
 

@@ -36,7 +36,12 @@ use crate::{AnyHit, Candidate, Counter};
 pub(crate) const MAX_DEPTH: usize = 64;
 
 /// At each level seven siblings may wait; eight are written at once.
-pub(crate) const STACK: usize = MAX_DEPTH * (WIDTH - 1) + 2 * WIDTH;
+pub(crate) const STACK: usize = stack(MAX_DEPTH);
+
+/// How many places a stack needs for a tree that is so deep: a multiple of eight.
+pub(crate) const fn stack(depth: usize) -> usize {
+    (depth * (WIDTH - 1)).next_multiple_of(8) + 2 * WIDTH
+}
 
 /// The parts of a tree of triangles.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +49,8 @@ pub(crate) struct Tree<'a> {
     pub(crate) root: Child,
     pub(crate) nodes: &'a [Node],
     pub(crate) quads: &'a [Quad],
+    /// How many places a stack needs.
+    pub(crate) stack: usize,
 }
 
 impl Tree<'_> {
@@ -329,20 +336,25 @@ unsafe fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
     unsafe { p[0].times(q[1]).minus(p[1].times(q[0])) }
 }
 
-/// Tests the triangles of a leaf.
+/// Eight triangles of a leaf, moved and sheared, and which of them the ray may cross.
+pub(super) struct Sheared<L> {
+    pub(super) a: [L; 3],
+    pub(super) b: [L; 3],
+    pub(super) c: [L; 3],
+    /// Bit k: whether triangle k was not turned away.
+    pub(super) left: u32,
+}
+
+/// The first half of the test of a leaf's triangles.
 ///
 /// # Safety
 /// - See [`walk`]; and there is a leaf of so many places.
 #[inline(always)]
-pub(super) unsafe fn leaf<L: Lanes, W: Word, C: Counter>(
+pub(super) unsafe fn shear<L: Lanes>(
     leaf: *const f32,
     places: usize,
-    ray: &mut SingleRay,
-    best: &mut Found,
-    rule: EdgeRule,
-    word: &mut W,
-    counter: &mut C,
-) -> After {
+    ray: &SingleRay,
+) -> Sheared<L> {
     // SAFETY: of a leaf of four places eight numbers are read from the beginning of each of nine
     // components, the last four of them not being those of triangles; after the nine comes a
     // tenth, so all lie in the leaf.
@@ -363,7 +375,28 @@ pub(super) unsafe fn leaf<L: Lanes, W: Word, C: Counter>(
         // Not on both sides; and where a corner is NaN, no.
         let zero = L::splat(0.0);
         let inside = zero.at_most(least) | most.at_most(zero);
-        let mut left = inside & (255 >> (8 - places));
+        let left = inside & (255 >> (8 - places));
+        Sheared { a, b, c, left }
+    }
+}
+
+/// Tests the triangles of a leaf.
+///
+/// # Safety
+/// - See [`walk`]; and there is a leaf of so many places.
+#[inline(always)]
+pub(super) unsafe fn leaf<L: Lanes, W: Word, C: Counter>(
+    leaf: *const f32,
+    places: usize,
+    ray: &mut SingleRay,
+    best: &mut Found,
+    rule: EdgeRule,
+    word: &mut W,
+    counter: &mut C,
+) -> After {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let Sheared { a, b, c, mut left } = shear::<L>(leaf, places, ray);
         let numbers = leaf.add(9 * places);
         if C::COUNTS {
             for k in 0..places {

@@ -1,7 +1,7 @@
 //! The lanes with AVX2 and FMA.
 
 use std::arch::x86_64::{
-    __m256, __m256i, _CMP_LE_OQ, _mm_cvtsi64_si128, _mm256_cmp_ps, _mm256_cvtepu8_epi32,
+    __m256, __m256d, __m256i, _CMP_LT_OQ, _mm256_add_pd, _mm256_castps256_ps128, _mm256_cmp_pd, _mm256_cvtpd_ps, _mm256_cvtps_pd, _mm256_div_pd, _mm256_extractf128_ps, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_set1_pd, _mm256_set_m128, _mm256_sub_pd, _CMP_LE_OQ, _mm_cvtsi64_si128, _mm256_cmp_ps, _mm256_cvtepu8_epi32,
     _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_max_ps, _mm256_min_ps,
     _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
     _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
@@ -9,7 +9,7 @@ use std::arch::x86_64::{
 };
 
 use super::super::super::node::Child;
-use super::Lanes;
+use super::{Lanes, WideLanes};
 
 /// A vector of 256 bits.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,8 @@ unsafe fn places(order: u32) -> __m256i {
 }
 
 impl Lanes for Avx2 {
+    type Wide = Avx2Wide;
+
     #[inline(always)]
     unsafe fn splat(x: f32) -> Self {
         // SAFETY: the caller's promise; so everywhere below.
@@ -159,6 +161,85 @@ impl Lanes for Avx2 {
                 from += 8;
             }
             kept
+        }
+    }
+}
+
+/// Two vectors of 256 bits: the first four numbers, the last four.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2Wide([__m256d; 2]);
+
+impl WideLanes<Avx2> for Avx2Wide {
+    #[inline(always)]
+    unsafe fn of(singles: Avx2) -> Self {
+        // SAFETY: as above; so everywhere below.
+        unsafe {
+            let (low, high) = (
+                _mm256_castps256_ps128(singles.0),
+                _mm256_extractf128_ps::<1>(singles.0),
+            );
+            Self([_mm256_cvtps_pd(low), _mm256_cvtps_pd(high)])
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn splat(x: f64) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_set1_pd(x); 2] })
+    }
+
+    #[inline(always)]
+    unsafe fn plus(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_add_pd(self.0[0], other.0[0]), _mm256_add_pd(self.0[1], other.0[1])] })
+    }
+
+    #[inline(always)]
+    unsafe fn minus(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_sub_pd(self.0[0], other.0[0]), _mm256_sub_pd(self.0[1], other.0[1])] })
+    }
+
+    #[inline(always)]
+    unsafe fn times(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_mul_pd(self.0[0], other.0[0]), _mm256_mul_pd(self.0[1], other.0[1])] })
+    }
+
+    #[inline(always)]
+    unsafe fn over(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_div_pd(self.0[0], other.0[0]), _mm256_div_pd(self.0[1], other.0[1])] })
+    }
+
+    #[inline(always)]
+    unsafe fn smaller(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_min_pd(self.0[0], other.0[0]), _mm256_min_pd(self.0[1], other.0[1])] })
+    }
+
+    #[inline(always)]
+    unsafe fn larger(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { [_mm256_max_pd(self.0[0], other.0[0]), _mm256_max_pd(self.0[1], other.0[1])] })
+    }
+
+    #[inline(always)]
+    unsafe fn below(self, other: Self) -> u32 {
+        // SAFETY: as above.
+        unsafe {
+            let low = _mm256_cmp_pd::<_CMP_LT_OQ>(self.0[0], other.0[0]);
+            let high = _mm256_cmp_pd::<_CMP_LT_OQ>(self.0[1], other.0[1]);
+            (_mm256_movemask_pd(low) | _mm256_movemask_pd(high) << 4) as u32
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn rounded(self) -> Avx2 {
+        // SAFETY: as above.
+        unsafe {
+            let (low, high) = (_mm256_cvtpd_ps(self.0[0]), _mm256_cvtpd_ps(self.0[1]));
+            Avx2(_mm256_set_m128(high, low))
         }
     }
 }

@@ -4,7 +4,7 @@
 //! time are seldom wanted.
 
 use std::arch::x86_64::{
-    __m256, __m256i, _CMP_LE_OQ, _mm256_cmp_ps, _mm256_cmp_ps_mask, _mm256_movemask_ps, _mm256_fmadd_ps, _mm256_loadu_ps,
+    __m256, __m256i, __m512d, _CMP_LT_OQ, _mm512_add_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd, _mm512_div_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd, _mm512_sub_pd, _CMP_LE_OQ, _mm256_cmp_ps, _mm256_cmp_ps_mask, _mm256_movemask_ps, _mm256_fmadd_ps, _mm256_loadu_ps,
     _mm256_loadu_si256, _mm256_maskz_compress_epi32, _mm256_maskz_compress_ps, _mm256_max_ps,
     _mm256_min_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
     _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
@@ -12,7 +12,7 @@ use std::arch::x86_64::{
 };
 
 use super::super::super::node::Child;
-use super::Lanes;
+use super::{Lanes, WideLanes};
 
 /// A vector of 256 bits, compared into mask registers.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,8 @@ pub(super) unsafe fn places(order: u32) -> __m256i {
 }
 
 impl Lanes for Avx512 {
+    type Wide = Avx512Wide;
+
     #[inline(always)]
     unsafe fn splat(x: f32) -> Self {
         // SAFETY: the caller's promise; so everywhere below.
@@ -139,5 +141,71 @@ impl Lanes for Avx512 {
             }
             kept
         }
+    }
+}
+
+/// A vector of 512 bits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512Wide(__m512d);
+
+impl WideLanes<Avx512> for Avx512Wide {
+    #[inline(always)]
+    unsafe fn of(singles: Avx512) -> Self {
+        // SAFETY: as above; so everywhere below.
+        Self(unsafe { _mm512_cvtps_pd(singles.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn splat(x: f64) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_set1_pd(x) })
+    }
+
+    #[inline(always)]
+    unsafe fn plus(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_add_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn minus(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_sub_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn times(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_mul_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn over(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_div_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn smaller(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn larger(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn below(self, other: Self) -> u32 {
+        // SAFETY: as above.
+        u32::from(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn rounded(self) -> Avx512 {
+        // SAFETY: as above.
+        Avx512(unsafe { _mm512_cvtpd_ps(self.0) })
     }
 }

@@ -19,6 +19,9 @@ pub(crate) use {avx2::Avx2, avx512::Avx512};
 ///
 /// All levels give the same results to the bit but for [`multiply_add`](Self::multiply_add).
 pub(crate) trait Lanes: Copy {
+    /// The same numbers in double precision.
+    type Wide: WideLanes<Self>;
+
     /// Eight times the same.
     ///
     /// # Safety
@@ -101,6 +104,70 @@ pub(crate) trait Lanes: Copy {
     /// # Safety
     /// - `count` rounded up to eights may be read and written at both.
     unsafe fn keep(children: *mut Child, entries: *mut f32, count: usize, t_max: f32) -> usize;
+}
+
+/// Eight double-precision numbers: no more than is in use. All levels give the same results to the
+/// bit.
+pub(crate) trait WideLanes<L>: Copy {
+    /// Of singles.
+    ///
+    /// # Safety
+    /// - As for [`Lanes`]; so below.
+    unsafe fn of(singles: L) -> Self;
+
+    /// Eight times the same.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn splat(x: f64) -> Self;
+
+    /// `self + other`.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn plus(self, other: Self) -> Self;
+
+    /// `self − other`.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn minus(self, other: Self) -> Self;
+
+    /// `self · other`.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn times(self, other: Self) -> Self;
+
+    /// `self / other`.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn over(self, other: Self) -> Self;
+
+    /// The smaller of each two; `other`'s where one is NaN or they are equal.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn smaller(self, other: Self) -> Self;
+
+    /// The larger of each two; `other`'s where one is NaN or they are equal.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn larger(self, other: Self) -> Self;
+
+    /// Bit k: whether number k is below the other one's; no where one is NaN.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn below(self, other: Self) -> u32;
+
+    /// Rounded to singles.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn rounded(self) -> L;
 }
 
 /// A level of instructions.

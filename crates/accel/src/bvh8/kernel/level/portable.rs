@@ -1,7 +1,7 @@
 //! The lanes for any processor: what the instructions are held against.
 
 use super::super::super::node::Child;
-use super::Lanes;
+use super::{Lanes, WideLanes};
 
 /// Eight numbers in an array.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +15,8 @@ impl Portable {
 }
 
 impl Lanes for Portable {
+    type Wide = PortableWide;
+
     #[inline(always)]
     unsafe fn splat(x: f32) -> Self {
         Self([x; 8])
@@ -116,5 +118,68 @@ impl Lanes for Portable {
             }
         }
         kept
+    }
+}
+
+/// Eight doubles in an array.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PortableWide([f64; 8]);
+
+impl PortableWide {
+    #[inline(always)]
+    fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|k| of(self.0[k], other.0[k])))
+    }
+}
+
+impl WideLanes<Portable> for PortableWide {
+    #[inline(always)]
+    unsafe fn of(singles: Portable) -> Self {
+        Self(singles.0.map(f64::from))
+    }
+
+    #[inline(always)]
+    unsafe fn splat(x: f64) -> Self {
+        Self([x; 8])
+    }
+
+    #[inline(always)]
+    unsafe fn plus(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+
+    #[inline(always)]
+    unsafe fn minus(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+
+    #[inline(always)]
+    unsafe fn times(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+
+    #[inline(always)]
+    unsafe fn over(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    unsafe fn smaller(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
+    unsafe fn larger(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    unsafe fn below(self, other: Self) -> u32 {
+        (0..8).fold(0, |bits, k| bits | u32::from(self.0[k] < other.0[k]) << k)
+    }
+
+    #[inline(always)]
+    unsafe fn rounded(self) -> Portable {
+        Portable(self.0.map(|x| x as f32))
     }
 }
