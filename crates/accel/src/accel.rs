@@ -3,7 +3,7 @@
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 use rayon::prelude::*;
 
-use crate::bvh8::{Bvh8, Item};
+use crate::bvh8::{Bvh8, Item, Level};
 use crate::search::Search;
 use crate::{
     AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, Statistics,
@@ -77,6 +77,23 @@ impl<P: Primitives> Accel<P> {
         &self.primitives
     }
 
+    /// The same, traced with a level of instructions that is not the best one of this machine. What
+    /// is not traced by kernels stays as it is.
+    ///
+    /// # Panics
+    /// When this machine does not have the level.
+    #[must_use]
+    pub fn at_level(mut self, level: Level) -> Self {
+        assert!(
+            Level::available().contains(&level),
+            "this machine does not have the level {level:?}"
+        );
+        if let AnyStructure::Bvh8(bvh) = &mut self.structure {
+            bvh.tree.level = level;
+        }
+        self
+    }
+
     /// Bytes of the structure alone.
     #[must_use]
     pub fn structure_bytes(&self) -> usize {
@@ -148,7 +165,9 @@ impl<P: Primitives> Traversable for Accel<P> {
         assert_eq!(rays.len(), hits.len(), "one place for a hit for each ray");
         let mut slow = Vec::new();
         if let AnyStructure::Bvh8(bvh) = &self.structure
-            && bvh.tree.closest_many(rays, hits, &mut |index| slow.push(index))
+            && bvh
+                .tree
+                .closest_many(rays, hits, &mut |index| slow.push(index))
         {
             for index in slow {
                 hits[index] = self.intersect(&rays[index]);
@@ -164,7 +183,9 @@ impl<P: Primitives> Traversable for Accel<P> {
         assert_eq!(rays.len(), occluded.len(), "one answer for each ray");
         let mut slow = Vec::new();
         if let AnyStructure::Bvh8(bvh) = &self.structure
-            && bvh.tree.any_many(rays, occluded, &mut |index| slow.push(index))
+            && bvh
+                .tree
+                .any_many(rays, occluded, &mut |index| slow.push(index))
         {
             for index in slow {
                 occluded[index] = self.occluded(&rays[index]);

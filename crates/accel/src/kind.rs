@@ -87,9 +87,9 @@ structures! {
     KdShortStack(KdShortStack), "kd-short-stack", "kd-tree, a stack of four, else from the root";
     KdRopes(KdRopes), "kd-ropes", "kd-tree, ropes lead from leaf to leaf";
     Bih(Bih), "bih", "bounding interval hierarchy: two clip planes a node, built in one quick pass";
-    #[default]
     Bvh(Bvh<Sah>), "bvh", "boxes within boxes, cut where the surface area heuristic says";
     BvhMedian(Bvh<Median>), "bvh-median", "boxes within boxes, each list halved along the widest axis";
+    #[default]
     Bvh8(Bvh8<Balanced>), "bvh8", "eight boxes a node, tested at once: the quickest to trace";
     BvhLbvh(Bvh<Lbvh>), "bvh-lbvh", "boxes within boxes, cut along a Morton curve: the quickest to build";
 }

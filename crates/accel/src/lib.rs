@@ -55,6 +55,7 @@ pub use accel::Accel;
 pub use alias::StructureAlias;
 pub use bih::Bih;
 pub use brute_force::BruteForce;
+pub use bvh8::Level;
 pub use grid::Grid;
 pub use grid2::Grid2;
 pub use instance::{Instance, Instances};

@@ -399,11 +399,7 @@ impl<T: Real> Vector3<T> {
         let (x, y, z) = (self.x.abs(), self.y.abs(), self.z.abs());
         // Not `&&`: which it is, is hard to guess.
         let y_or_z = if y >= z { Axis::Y } else { Axis::Z };
-        if (x >= y) & (x >= z) {
-            Axis::X
-        } else {
-            y_or_z
-        }
+        if (x >= y) & (x >= z) { Axis::X } else { y_or_z }
     }
 
     /// The mirror image of this direction of travel on a surface with unit normal `normal`.

@@ -52,7 +52,7 @@ pub(crate) struct Wide {
     tree: WideTree,
     leaves: Leaves,
     near: Near,
-    level: Level,
+    pub(crate) level: Level,
 }
 
 /// What leaves hold.
@@ -100,7 +100,10 @@ fn pack(tree: &mut WideTree, list: &[u32], mesh: &TriangleMesh) -> Vec<Quad> {
         }
     };
     packed(&mut tree.root);
-    tree.nodes.iter_mut().flat_map(|node| &mut node.child).for_each(packed);
+    tree.nodes
+        .iter_mut()
+        .flat_map(|node| &mut node.child)
+        .for_each(packed);
     quads
 }
 

@@ -149,7 +149,11 @@ impl Node {
                 };
                 // Not where sums are of infinities.
                 let there = self.lower[0][i] <= self.upper[0][i];
-                let key = if there { along(0) + along(1) + along(2) } else { f32::INFINITY };
+                let key = if there {
+                    along(0) + along(1) + along(2)
+                } else {
+                    f32::INFINITY
+                };
                 (key, i)
             });
             keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

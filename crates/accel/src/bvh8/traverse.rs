@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use arrayvec::ArrayVec;
 
-use super::node::{Child, WIDTH};
 use super::kernel::STACK;
+use super::node::{Child, WIDTH};
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
@@ -51,8 +51,10 @@ impl Wide {
                     let at = 9 * places + k;
                     quads[leaf.quad() + at / 40].numbers[at % 40].to_bits()
                 };
-                let list: ArrayVec<u32, WIDTH> =
-                    (0..places).map(numbers).filter(|&n| n != u32::MAX).collect();
+                let list: ArrayVec<u32, WIDTH> = (0..places)
+                    .map(numbers)
+                    .filter(|&n| n != u32::MAX)
+                    .collect();
                 visitor.leaf(&list, Span::ALL)
             }
         }

@@ -1,6 +1,6 @@
 //! What a structure answers to a ray, down to the bit.
 
-use ombra_accel::{Accel, AnyHit, Primitives, StructureKind, Traversable};
+use ombra_accel::{Accel, AnyHit, Level, Primitives, StructureKind, Traversable};
 use ombra_geometry::{Hit, Ray};
 
 /// A hit as bits, so that −0 and 0 differ and NaN equals itself.
@@ -90,13 +90,20 @@ impl Answers {
     }
 }
 
-/// Holds every structure over the primitives against brute force. Returns how many hits there were.
+/// Holds every structure over the primitives, at every level of instructions, against brute force.
+/// Returns how many hits there were.
 pub(crate) fn assert_agreement<P: Primitives + Clone>(
     name: &str,
     primitives: &P,
     rays: &[Ray],
 ) -> usize {
     let build = |kind| Accel::build(primitives.clone(), kind);
+    let levels = Level::available();
+    for &level in &levels[..levels.len() - 1] {
+        let build = |kind| build(kind).at_level(level);
+        let name = format!("{name}, {level:?}");
+        assert_kinds_same(&name, &build, rays, &[StructureKind::Bvh8]);
+    }
     assert_same(name, &build, rays)
 }
 
@@ -106,6 +113,31 @@ pub(crate) fn assert_same<T: Traversable>(
     name: &str,
     build: &dyn Fn(StructureKind) -> T,
     rays: &[Ray],
+) -> usize {
+    assert_kinds_same(name, build, rays, StructureKind::ALL)
+}
+
+/// All rays in one call, and a few, and none, get the answers that each gets alone.
+fn assert_many_are_as_one(name: &str, accel: &impl Traversable, judged: &[(Ray, Answers)]) {
+    for count in [judged.len(), 3, 1, 0] {
+        let (rays, answers): (Vec<Ray>, Vec<&Answers>) =
+            judged.iter().take(count).map(|(ray, a)| (*ray, a)).unzip();
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        accel.intersect_many(&rays, &mut hits);
+        accel.occluded_many(&rays, &mut occluded);
+        for (i, answers) in answers.iter().enumerate() {
+            let closest = hits[i].as_ref().map(bits);
+            assert_eq!(closest, answers.closest, "{name}: {:?}", rays[i]);
+            assert_eq!(occluded[i], answers.occluded, "{name}: {:?}", rays[i]);
+        }
+    }
+}
+
+fn assert_kinds_same<T: Traversable>(
+    name: &str,
+    build: &dyn Fn(StructureKind) -> T,
+    rays: &[Ray],
+    kinds: &[StructureKind],
 ) -> usize {
     let judge = build(StructureKind::BruteForce);
     let mut judged = Vec::new();
@@ -119,7 +151,7 @@ pub(crate) fn assert_same<T: Traversable>(
     for (ray, answers) in &judged {
         answers.assert_consistent(name, ray);
     }
-    for &kind in StructureKind::ALL {
+    for &kind in kinds {
         if kind == StructureKind::BruteForce {
             continue;
         }
@@ -132,6 +164,7 @@ pub(crate) fn assert_same<T: Traversable>(
                 "{name}, {kind}: {ray:?}\nfound    {found:?}\nexpected {expected:?}"
             );
         }
+        assert_many_are_as_one(&format!("{name}, {kind}"), &accel, &judged);
     }
     judged.iter().map(|(_, answers)| answers.seen.len()).sum()
 }

@@ -10,8 +10,8 @@
 //! 4. Boxes and counts of bins do not depend on the order of the list, and where a list is cut in
 //!    parts for several threads does not depend on their number: the tree is the same for any.
 
-use super::super::node::MAX_LEAF;
 use super::super::kernel::MAX_DEPTH;
+use super::super::node::MAX_LEAF;
 use super::item::Item;
 use super::{BinaryNode, BinaryTree};
 

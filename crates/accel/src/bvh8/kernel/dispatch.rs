@@ -2,9 +2,9 @@
 
 use ombra_geometry::{EdgeRule, Hit, Ray};
 
-use super::level::{Lanes, Level, Portable};
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
+use super::level::{Lanes, Level, Portable};
 use super::ray::{Near, SingleRay};
 use super::stream::stream;
 use super::walk::{Any, Closest, Found, Said, Tree, walk};
@@ -85,7 +85,15 @@ kernels! {
 unsafe fn closest_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<Option<Found>> {
     let mut ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
-    unsafe { Some(walk::<L, _, _>(tree, &mut ray, EdgeRule::Closed, &mut Closest, &mut ())) }
+    unsafe {
+        Some(walk::<L, _, _>(
+            tree,
+            &mut ray,
+            EdgeRule::Closed,
+            &mut Closest,
+            &mut (),
+        ))
+    }
 }
 
 #[inline(always)]

@@ -17,8 +17,8 @@
 //!
 //! So a pad of 16 ε F + 4 ε (|o| + F) is enough. It is computed rounded up: `PAD` and `PAD_AT`.
 
-use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
 use ombra_geometry::Ray;
+use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
 
 use crate::{Reach, TraversalRay};
 
@@ -149,7 +149,11 @@ impl SingleRay {
             near: each(|k| -(origin[k] + pad[k]) * inverse[k]),
             far: each(|k| -(origin[k] - pad[k]) * inverse[k]),
             enter: [24 * octant[0], 8 + 24 * octant[1], 16 + 24 * octant[2]],
-            leave: [24 - 24 * octant[0], 32 - 24 * octant[1], 40 - 24 * octant[2]],
+            leave: [
+                24 - 24 * octant[0],
+                32 - 24 * octant[1],
+                40 - 24 * octant[2],
+            ],
             octant: octant[0] | octant[1] << 1 | octant[2] << 2,
             t_min: ray.t_min,
             t_max: ray.t_max,

@@ -27,7 +27,7 @@ use super::ray::{Near, SingleRay};
 use super::walk::{Found, STACK, Sheared, Slabs, Tree, Word, shear};
 
 /// How many rays are under way.
-const FLIGHT: usize = 32;
+const FLIGHT: usize = 16;
 
 /// What lies below all that waits: the end.
 const END: Child = Child(u32::MAX);
@@ -96,7 +96,7 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
                 return;
             }
             // Until few are at nodes, so that those at leaves are many.
-            while at_nodes.count_ones() as usize > FLIGHT / 2 || (at_leaves | over == 0) {
+            while at_nodes.count_ones() as usize > FLIGHT / 4 || (at_leaves | over == 0) {
                 let mut turn = at_nodes;
                 at_nodes = 0;
                 while turn != 0 {
@@ -169,9 +169,7 @@ fn sort_in(child: Child, slot: u32, [at_nodes, at_leaves, over]: [&mut u32; 3]) 
 #[inline(always)]
 unsafe fn top(under: *const Under) -> Child {
     // SAFETY: the caller's promise; the end at least waits.
-    unsafe {
-        *(*under).children.add((*under).waiting - 1)
-    }
+    unsafe { *(*under).children.add((*under).waiting - 1) }
 }
 
 /// Begins with the next ray; no if there is none.
@@ -277,9 +275,21 @@ unsafe fn second_half<L: Lanes>(under: *mut Under) -> bool {
     unsafe {
         let sheared = (&raw const (*under).sheared).cast::<f32>();
         let wide = |k: usize| sheared.add(8 * k);
-        let (ax, ay, az) = (widened::<L>(wide(0)), widened::<L>(wide(1)), widened::<L>(wide(2)));
-        let (bx, by, bz) = (widened::<L>(wide(3)), widened::<L>(wide(4)), widened::<L>(wide(5)));
-        let (cx, cy, cz) = (widened::<L>(wide(6)), widened::<L>(wide(7)), widened::<L>(wide(8)));
+        let (ax, ay, az) = (
+            widened::<L>(wide(0)),
+            widened::<L>(wide(1)),
+            widened::<L>(wide(2)),
+        );
+        let (bx, by, bz) = (
+            widened::<L>(wide(3)),
+            widened::<L>(wide(4)),
+            widened::<L>(wide(5)),
+        );
+        let (cx, cy, cz) = (
+            widened::<L>(wide(6)),
+            widened::<L>(wide(7)),
+            widened::<L>(wide(8)),
+        );
         let u = cx.times(by).minus(cy.times(bx));
         let v = ax.times(cy).minus(ay.times(cx));
         let w = bx.times(ay).minus(by.times(ax));

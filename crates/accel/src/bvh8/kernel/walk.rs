@@ -208,7 +208,15 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
                 waiting += entered.count_ones() as usize - 1;
                 child = *what.add(nearest as usize);
             }
-            match leaf::<L, W, C>(tree.leaf(child), child.places(), ray, &mut best, rule, word, counter) {
+            match leaf::<L, W, C>(
+                tree.leaf(child),
+                child.places(),
+                ray,
+                &mut best,
+                rule,
+                word,
+                counter,
+            ) {
                 After::Nothing => {}
                 After::Over => return best.some(),
                 After::Hit => {
@@ -318,11 +326,7 @@ unsafe fn corners<L: Lanes>(
         let x = L::load(from.add(axes[0])).minus(origin[0]);
         let y = L::load(from.add(axes[1])).minus(origin[1]);
         let z = L::load(from.add(axes[2])).minus(origin[2]);
-        [
-            x.minus(shear[0].times(z)),
-            y.minus(shear[1].times(z)),
-            z,
-        ]
+        [x.minus(shear[0].times(z)), y.minus(shear[1].times(z)), z]
     }
 }
 

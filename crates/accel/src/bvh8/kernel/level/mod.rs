@@ -3,11 +3,11 @@
 //! A kernel is written once over [`Lanes`]; an entry point a level compiles it with the level's
 //! instructions. Which level a machine has is found out once ([`Level::detect`]).
 
-mod portable;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod portable;
 
 use super::super::node::Child;
 

@@ -46,7 +46,9 @@ impl Lanes for Portable {
 
     #[inline(always)]
     unsafe fn multiply_add(self, factor: Self, addend: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] * factor.0[k] + addend.0[k]))
+        Self(std::array::from_fn(|k| {
+            self.0[k] * factor.0[k] + addend.0[k]
+        }))
     }
 
     #[inline(always)]
