@@ -198,7 +198,7 @@ fn tinybvh_version() -> anyhow::Result<&'static str> {
              RUSTFLAGS=\"-C target-feature=+avx2,+fma\""
         );
     }
-    Ok("tinybvh-rs 0.1.0-beta.3")
+    Ok("0.1.0-beta.3 by tinybvh-rs")
 }
 
 fn obvhs_version() -> anyhow::Result<&'static str> {
