@@ -4,12 +4,19 @@
 //! bit for bit, so that a bench is a test as well; then their times are taken in turns, so that
 //! whatever else the machine does falls on all of them alike.
 //!
+//! [`against`] holds ombra against other tracers; the rest compares its own parts.
+//!
 //! To add a contestant, write one function that does the job and name it in the list of its bench.
 //! To add a bench, write a module with a [`Bench`] and name it in [`BENCHES`].
 
+pub mod against;
 pub mod contest;
 pub mod machine;
+pub mod meshes;
+pub mod place;
+pub mod random;
 pub mod record;
+pub mod records;
 pub mod scenes;
 pub mod whitted;
 

@@ -3,6 +3,7 @@
 //! One file a task. None of them imports a crate of ombra, so that the checks build in seconds and
 //! run on a tree that does not compile.
 
+mod bench;
 mod cargo;
 mod commands;
 mod deny;
@@ -41,6 +42,8 @@ enum Task {
     /// Build the website in target/docs and check the pages: links lead somewhere, formulas can be
     /// set, commands exist, and those that make pictures work
     Docs,
+    /// Get what benches need that is not built here
+    Bench(bench::Options),
     /// Check what all crates share, the licence files, and the words that files may not hold
     House,
     /// Render the committed pictures of README.md and docs/ again
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
         Task::Layers => layers::run(),
         Task::Deny => deny::run(),
         Task::Docs => docs(),
+        Task::Bench(options) => bench::run(options),
         Task::House => members::run()
             .and_then(|()| licences::run())
             .and_then(|()| words::run()),

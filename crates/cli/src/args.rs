@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::commands::bench::BenchArgs;
 use crate::commands::explain::ExplainArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Minray(MinrayCommand),
     /// Tell how a pixel came about: all of its rays
     Explain(Box<ExplainArgs>),
+    /// Measure: ombra's parts against one another, or ombra against other ray tracers
+    Bench(Box<BenchArgs>),
     /// Say what a file holds: a model, a scene, a picture
     Info(InfoArgs),
     /// List the built-in scenes

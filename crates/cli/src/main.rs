@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Some(Command::Compare(args)) => commands::compare::run(&args),
         Some(Command::Minray(command)) => commands::minray::run(&command),
         Some(Command::Explain(args)) => commands::explain::run(&args),
+        Some(Command::Bench(args)) => commands::bench::run(&args),
         Some(Command::Info(args)) => commands::info::run(&args),
         Some(Command::Scenes(args)) => commands::lists::scenes(&args),
         Some(Command::Structures(args)) => commands::lists::structures(&args),

@@ -55,6 +55,7 @@ fn help_names_every_command() {
         "compare",
         "explain",
         "minray",
+        "bench",
         "info",
         "scenes",
         "structures",

@@ -1,6 +1,7 @@
 //! The binary as a person meets it: arguments in, files, words and exit codes out.
 
 mod bad_input;
+mod bench;
 mod compared;
 mod explained;
 mod interrupted;

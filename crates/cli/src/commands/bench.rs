@@ -1,0 +1,175 @@
+//! `ombra bench`: what things cost.
+
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context as _, ensure};
+use clap::Args;
+use ombra::accel::StructureKind;
+use ombra::render::MAX_SIDE;
+use ombra_bench::against::{self, Options, Peer};
+use ombra_bench::machine::Machine;
+use ombra_bench::{BENCHES, Settings, records};
+
+use crate::args::{Accel, accel, named};
+
+/// Without --against: parts of ombra that do the same job, their answers compared first, then their
+/// times.
+///
+/// With it: rays, builds, bytes and answers of ombra and of other ray tracers, in one process.
+#[derive(Debug, Args)]
+pub(crate) struct BenchArgs {
+    /// Benches of ombra's own parts; --list names them [default: all of them]
+    #[arg(conflicts_with = "against")]
+    pub(crate) benches: Vec<String>,
+
+    /// List the benches of ombra's own parts
+    #[arg(long, conflicts_with = "against")]
+    pub(crate) list: bool,
+
+    /// Other ray tracers, separated by commas
+    #[arg(long, value_name = "PEER", value_delimiter = ',', value_parser = named(&Peer::ALL, Peer::name, Peer::line))]
+    pub(crate) against: Vec<Peer>,
+
+    /// The structures that take part, separated by commas; of ombra's own parts the first is used
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = StructureKind::default().name(), value_parser = accel)]
+    pub(crate) accel: Vec<Accel>,
+
+    /// How many pixels wide and high pictures are [default: 1024 with --against, else 256]
+    #[arg(long, visible_alias = "rays", value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SIDE)))]
+    pub(crate) size: Option<u32>,
+
+    /// How many times each contestant runs on the clock; 0 compares answers only [default: 9]
+    #[arg(long, value_name = "N")]
+    pub(crate) rounds: Option<usize>,
+
+    /// With how many threads, separated by commas; 0 is all of them
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [1, 0])]
+    pub(crate) threads: Vec<usize>,
+
+    /// How fine generated hills are: twice the square of this many triangles
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 200,
+        conflicts_with = "against"
+    )]
+    pub(crate) detail: u32,
+
+    /// Scenes, separated by commas: interior, dragon, city; models; soups of triangles (.bin);
+    /// FILE@inside starts rays within it [default: interior,dragon,city]
+    #[arg(
+        long,
+        value_name = "SCENE",
+        value_delimiter = ',',
+        requires = "against"
+    )]
+    pub(crate) scenes: Vec<String>,
+
+    /// Embree's library or its folder [default: OMBRA_EMBREE, else where `cargo xtask bench --setup` puts it]
+    #[arg(long, value_name = "PATH", requires = "against")]
+    pub(crate) embree: Option<PathBuf>,
+
+    /// Tiny scenes, few rays, one round: whether it works
+    #[arg(long, requires = "against")]
+    pub(crate) smoke: bool,
+
+    /// Keep what is found in FOLDER/MACHINE/DATE-against.json and .md
+    #[arg(long, value_name = "FOLDER", requires = "against")]
+    pub(crate) record: Option<PathBuf>,
+
+    /// No talk
+    #[arg(long)]
+    pub(crate) quiet: bool,
+
+    /// As JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+pub(crate) fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
+    let text = if args.list {
+        let line = |bench: &ombra_bench::Bench| format!("{:<10} {}\n", bench.name, bench.line);
+        BENCHES.iter().map(line).collect()
+    } else if args.against.is_empty() {
+        own_parts(args)?
+    } else {
+        peers(args)?
+    };
+    io::stdout().write_all(text.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// ombra against others.
+fn peers(args: &BenchArgs) -> anyhow::Result<String> {
+    let base = if args.smoke {
+        Options::smoke()
+    } else {
+        Options::default()
+    };
+    let scenes = if args.scenes.is_empty() {
+        base.scenes.clone()
+    } else {
+        args.scenes.clone()
+    };
+    let options = Options {
+        peers: args.against.clone(),
+        accels: args.accel.iter().map(|accel| accel.kind).collect(),
+        scenes,
+        side: args.size.unwrap_or(base.side),
+        rounds: args.rounds.unwrap_or(base.rounds),
+        threads: args.threads.clone(),
+        embree: args.embree.clone(),
+        ..base
+    };
+    let mut talk = |line: &str| {
+        if !args.quiet {
+            // Nobody is left to tell if this fails.
+            let _ = writeln!(io::stderr(), "{line}");
+        }
+    };
+    let report = against::run(&options, &mut talk)?;
+    let (json, tables) = (serde_json::to_string_pretty(&report)?, report.tables());
+    if let Some(folder) = &args.record {
+        let paths = records::keep(folder, &report.machine, "against", &json, &tables)
+            .with_context(|| format!("cannot write to {}", folder.display()))?;
+        for path in paths {
+            talk(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(if args.json { json + "\n" } else { tables })
+}
+
+/// Parts of ombra against one another.
+fn own_parts(args: &BenchArgs) -> anyhow::Result<String> {
+    for name in &args.benches {
+        ensure!(
+            BENCHES.iter().any(|bench| bench.name == name),
+            "there is no bench \"{name}\"; --list names them"
+        );
+    }
+    let base = Settings::default();
+    let settings = Settings {
+        rounds: args.rounds.unwrap_or(base.rounds),
+        threads: args.threads.clone(),
+        pixels: args.size.unwrap_or(base.pixels),
+        detail: args.detail,
+        accel: args.accel.first().map_or(base.accel, |accel| accel.kind),
+    };
+    let mut records = Vec::new();
+    for bench in BENCHES {
+        if args.benches.is_empty() || args.benches.iter().any(|name| name == bench.name) {
+            records.extend((bench.run)(&settings)?);
+        }
+    }
+    let machine = Machine::this();
+    if args.json {
+        let all = serde_json::json!({ "machine": machine, "records": records });
+        return Ok(serde_json::to_string_pretty(&all)? + "\n");
+    }
+    let (cpu, threads, commit) = (&machine.cpu, machine.threads, &machine.commit);
+    let head = format!("{cpu} ({threads} threads), {commit}\n");
+    let lines = records.iter().map(|record| format!("{record}\n"));
+    Ok(head + &lines.collect::<String>())
+}
