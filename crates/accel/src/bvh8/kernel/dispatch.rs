@@ -6,7 +6,7 @@ use ombra_geometry::{EdgeRule, Hit, Ray};
 use super::level::{Avx2, Avx512};
 use super::level::{Lanes, Level, Portable};
 use super::ray::{Near, SingleRay};
-use super::stream::stream;
+use super::many::many;
 use super::walk::{Any, Closest, Found, Said, Tree, walk};
 use crate::{AnyHit, Statistics};
 
@@ -139,7 +139,7 @@ unsafe fn closest_hits<L: Lanes>(
         hits[index] = found.some().map(|found| found.candidate().hit());
     };
     // SAFETY: the caller's promise.
-    unsafe { stream::<L, Closest>(tree, near, rays, answer, slow) }
+    unsafe { many::<L, Closest>(tree, near, rays, answer, slow) }
 }
 
 #[inline(always)]
@@ -152,5 +152,5 @@ unsafe fn any_hits<L: Lanes>(
 ) {
     let answer = |index: usize, found: Found| hits[index] = found.some().is_some();
     // SAFETY: the caller's promise.
-    unsafe { stream::<L, Any>(tree, near, rays, answer, slow) }
+    unsafe { many::<L, Any>(tree, near, rays, answer, slow) }
 }

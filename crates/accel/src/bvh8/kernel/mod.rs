@@ -6,6 +6,8 @@
 
 mod dispatch;
 mod level;
+mod many;
+mod packet;
 mod ray;
 mod stream;
 mod walk;

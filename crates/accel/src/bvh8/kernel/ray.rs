@@ -23,21 +23,21 @@ use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
 use crate::{Reach, TraversalRay};
 
 /// The pad for each unit of the distance to the farthest corner.
-const PAD: f32 = 21.0 * f32::EPSILON;
+pub(super) const PAD: f32 = 21.0 * f32::EPSILON;
 /// The pad for each unit of the largest coordinate of the origin.
-const PAD_AT: f32 = 5.0 * f32::EPSILON;
+pub(super) const PAD_AT: f32 = 5.0 * f32::EPSILON;
 /// A component of the direction counts as at least this part of the largest one.
-const LEAST: f32 = 1.0 / (1 << 30) as f32;
+pub(super) const LEAST: f32 = 1.0 / (1 << 30) as f32;
 
 /// A structure as the making of rays sees it: what [`Reach`] says, in single precision and safely
 /// on the side of "no".
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    centre: [f32; 4],
+    pub(super) centre: [f32; 4],
     /// No corner is further from the centre than this.
-    half: f32,
+    pub(super) half: f32,
     /// A ray from up to here is near; negative if none is.
-    limit: f32,
+    pub(super) limit: f32,
 }
 
 /// Coordinates beyond this are left to double precision: squares of what is computed with them may

@@ -335,7 +335,7 @@ unsafe fn corners<L: Lanes>(
 /// # Safety
 /// - See [`walk`].
 #[inline(always)]
-unsafe fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
+pub(super) unsafe fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
     // SAFETY: the caller's promise.
     unsafe { p[0].times(q[1]).minus(p[1].times(q[0])) }
 }

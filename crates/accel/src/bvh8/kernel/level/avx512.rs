@@ -3,7 +3,7 @@
 //! Not on 512: a node has eight children and a leaf eight triangles at most, and two of either at a
 //! time are seldom wanted.
 
-use std::arch::x86_64::{
+use std::arch::x86_64::{_mm256_mask_storeu_ps, _mm256_div_ps,
     __m256, __m256i, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_cmp_ps_mask,
     _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_maskz_compress_epi32,
     _mm256_maskz_compress_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
@@ -61,6 +61,18 @@ impl Lanes for Avx512 {
     unsafe fn times(self, other: Self) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn over(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn store_where(self, bits: u32, to: *mut f32) {
+        // SAFETY: as above.
+        unsafe { _mm256_mask_storeu_ps(to, bits as u8, self.0) }
     }
 
     #[inline(always)]
