@@ -29,6 +29,8 @@ enum Floor {
     Files,
     /// One door for users of Rust.
     Facade,
+    /// What things cost, measured.
+    Measures,
     /// Where people come in.
     Outlets,
     /// Around the house: measured, taught, tried. Nothing imports from here.
@@ -85,6 +87,7 @@ const TABLE: &[Row] = &[
     planned("ombra-accrual", Floor::Sums, Wing::Sun),
     built("ombra-formats", Floor::Files, Wing::Trunk),
     built("ombra", Floor::Facade, Wing::Trunk),
+    built("ombra-study", Floor::Measures, Wing::Trunk),
     built("ombra-cli", Floor::Outlets, Wing::Trunk),
     planned("ombra-server", Floor::Outlets, Wing::Trunk),
     planned("ombra-python", Floor::Outlets, Wing::Trunk),

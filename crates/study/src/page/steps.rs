@@ -1,0 +1,94 @@
+//! Steps against tests: where the work of a ray is.
+
+use super::figure as framed;
+use crate::numbers::{list, short};
+use crate::plot::{Dot, Scale, Scatter};
+use crate::{SceneReport, StructureReport, Study};
+
+pub(super) fn figure(study: &Study, scene: &SceneReport) -> String {
+    let fits = |report: &&StructureReport| report.steps().iter().all(|&steps| steps > 0.0);
+    let shown: Vec<_> = scene.structures.iter().filter(fits).collect();
+    if shown.is_empty() {
+        return String::new();
+    }
+    let of = |axis: usize| shown.iter().map(move |report| report.steps()[axis]);
+    let scatter = Scatter {
+        title: "Steps against tests",
+        axes: ["nodes visited a ray", "tests made a ray"],
+        scales: [Scale::log(of(0)), Scale::log(of(1))],
+        dots: shown
+            .iter()
+            .map(|report| Dot {
+                name: report.structure,
+                at: report.steps(),
+            })
+            .collect(),
+        front: Vec::new(),
+    };
+    let says = sentence(study, scene, &shown);
+    framed(&scatter.draw().finish(&says), &says)
+}
+
+fn sentence(study: &Study, scene: &SceneReport, shown: &[&StructureReport]) -> String {
+    let least = |axis: usize| {
+        let mut sorted = shown.to_vec();
+        sorted.sort_by(|a, b| a.steps()[axis].total_cmp(&b.steps()[axis]));
+        let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
+        let [few, many] = [first, last].map(|report| report.steps()[axis]);
+        [(first.structure, few), (last.structure, many)]
+    };
+    let [(few_nodes, nodes), (many_nodes, most_nodes)] = least(0);
+    let [(few_tests, tests), (many_tests, most_tests)] = least(1);
+    let mut text = format!(
+        "A ray in {few_nodes} visits the fewest nodes, {}, one in {many_nodes} the most, {}; {few_tests} tests the \
+         fewest primitives, {}, and {many_tests} the most, {}.",
+        short(nodes),
+        short(most_nodes),
+        short(tests),
+        short(most_tests),
+    );
+    text += &agreement(study, shown);
+    let without: Vec<_> = (scene.structures.iter())
+        .filter(|report| report.steps()[0] == 0.0)
+        .map(|report| format!("{} ({} tests)", report.structure, short(report.steps()[1])))
+        .collect();
+    if !without.is_empty() {
+        text += &format!(
+            " Without nodes, and so without a place here: {}.",
+            list(&without)
+        );
+    }
+    text
+}
+
+/// How well the number of steps foretells the time.
+fn agreement(study: &Study, shown: &[&StructureReport]) -> String {
+    let few = study.fewest_threads();
+    let timed: Vec<_> = shown
+        .iter()
+        .filter_map(|report| {
+            let [nodes, tests] = report.steps();
+            Some((nodes + tests, report.speed(few)?))
+        })
+        .collect();
+    let (mut pairs, mut alike) = (0, 0);
+    for (index, a) in timed.iter().enumerate() {
+        for b in &timed[..index] {
+            pairs += 1;
+            // Fewer steps, more speed.
+            alike += usize::from((a.0 < b.0) == (a.1 > b.1));
+        }
+    }
+    if pairs < 3 {
+        return String::new();
+    }
+    format!(
+        " Of two structures the one with fewer steps in all (nodes and tests) is the faster one in {alike} of {pairs} \
+         pairs: {}.",
+        match alike as f64 / f64::from(pairs as u32) {
+            share if share >= 0.85 => "counting steps nearly tells the order",
+            share if share >= 0.65 => "counting steps tells much, but not all steps cost the same",
+            _ => "what a step costs matters more than how many there are",
+        }
+    )
+}
