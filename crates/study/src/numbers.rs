@@ -9,7 +9,12 @@ pub(crate) fn short(number: f64) -> String {
         () if size >= 99.95 => format!("{number:.0}"),
         () if size >= 9.995 => format!("{number:.1}"),
         () if size >= 0.1 || size == 0.0 => format!("{number:.2}"),
-        () if size >= 0.001 => format!("{number:.4}"),
+        () if size >= 0.01 => format!("{number:.3}"),
+        () if size >= 1e-7 => {
+            // Two digits that count, written out.
+            let places = (-size.log10()).ceil() as usize + 1;
+            format!("{number:.places$}")
+        }
         () => format!("{number:.1e}"),
     }
 }
@@ -94,7 +99,10 @@ mod tests {
             (99.96, "100"),
             (12.34, "12.3"),
             (1.234, "1.23"),
-            (0.0123, "0.0123"),
+            (0.0123, "0.012"),
+            (0.00024, "0.00024"),
+            (0.001, "0.0010"),
+            (3e-9, "3.0e-9"),
             (f64::NAN, "–"),
         ] {
             assert_eq!(short(number), text);

@@ -1,7 +1,7 @@
 //! What a structure costs before the first ray: building, and memory.
 
 use crate::html::escaped;
-use crate::numbers::{bytes, rate, seconds, short};
+use crate::numbers::{bytes, grouped, rate, seconds, short};
 use crate::plot::{Bar, Bars};
 use crate::{SceneReport, Spread, StructureReport, Study};
 
@@ -113,6 +113,6 @@ fn count(number: f64) -> String {
     match () {
         () if number >= 1e9 => format!("{} thousand million", short(number / 1e9)),
         () if number >= 1e6 => format!("{} million", short(number / 1e6)),
-        () => short(number.max(0.0).round()),
+        () => grouped(number.max(0.0).round() as u64),
     }
 }

@@ -21,9 +21,9 @@ main > p, figcaption, section > p { max-width: 46rem; }
 .lead { font-size: 1.05rem; } .quietly { color: var(--quiet); font-size: .9rem; }
 h2 { font-size: 1.25rem; margin: 2.5rem 0 .25rem; padding-top: 1rem; border-top: 1px solid var(--line); }
 h3 { font-size: 1rem; margin: 1.5rem 0 .25rem; }
-figure { margin: 1.5rem 0 0; } figcaption { margin: .5rem 0 0; }
+figure { margin: 2rem 0 0; overflow-x: auto; } .plot[viewBox^='0 0 800'] { min-width: 36rem; } .panels + figure, section > .panels { margin-top: 2rem; } figcaption { margin: .5rem 0 0; }
 .panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 27rem), 1fr)); gap: 1.25rem 2rem; }
-.panels > figure { margin: 0; } .plot { display: block; width: 100%; height: auto; max-width: 54rem; }
+.panels > figure { margin: 0; } .plot { display: block; width: 100%; height: auto; }
 .families { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; list-style: none; font-size: .9rem; }
 .families li::before { content: ''; display: inline-block; width: .75em; height: .75em; border-radius: 50%;
   background: currentColor; margin-right: .45em; } .families span { color: var(--ink); }

@@ -112,7 +112,7 @@ fn sentence(santos: &Santos) -> String {
         "; boxes are ahead in {opposite}. Ropes' speed over that of boxes is {} in the mean",
         short(santos.speed)
     );
-    text += &match santos.speed {
+    text += match santos.speed {
         ratio if ratio >= THEIRS[0] => ": we agree.",
         ratio if ratio > 1.0 => ": the same way, but by less.",
         _ => ": on speed we do not agree.",
@@ -147,11 +147,11 @@ fn reasons(study: &Study, santos: &Santos) -> Vec<String> {
     }
     if let (Some(nodes), Some(tests)) = (santos.nodes, santos.tests) {
         reasons.push(format!(
-            "What a step does. A node of a kd-tree is one plane, and a triangle that the plane cuts lies on both sides. A \
-             node of {BOXES} is the boxes of both children, which vector instructions test at once; one step of it says \
-             more. Here a ray in {ROPES} visits {} times the nodes and makes {} times the tests of one in {BOXES}. On a \
-             GPU of 2014 vectors ran across rays, one ray a lane, so a wide node had no such advantage, and short steps \
-             kept lanes that do different things together.",
+            "What a step does. A node of a kd-tree is one plane, and a triangle that the plane cuts lies on both sides and \
+             may be tested twice. In {BOXES} vector instructions test the boxes of two children at once (and count two \
+             nodes); a box closes in on a triangle from six sides, where a plane does from one. Here a ray in {ROPES} \
+             visits {} times the nodes and makes {} times the tests of one in {BOXES}. A GPU of 2014 ran its vectors across \
+             rays, one ray a lane, so to it two boxes were two steps.",
             short(nodes),
             short(tests),
         ));
@@ -166,8 +166,10 @@ fn reasons(study: &Study, santos: &Santos) -> Vec<String> {
         by_size(study, santos),
     ));
     reasons.push(
-        "What was compared. Their hierarchy and ours are not the same: builders, the size of leaves and the tests of triangles \
-         differ, and a ratio of two depends on both. Theirs is one machine and ours is one machine; run this on yours."
+        "What was compared. Their hierarchy and ours are not the same, nor are the trees: builders, the size of leaves and the \
+         tests of triangles differ, and our leaves with ropes keep their faces in double precision so that every structure \
+         gives the same bits. A ratio of two depends on both. Theirs is one machine and ours is one machine; run this on \
+         yours."
             .to_owned(),
     );
     reasons

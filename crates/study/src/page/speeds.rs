@@ -98,7 +98,10 @@ fn sentence(study: &Study, scene: &SceneReport) -> String {
         if !next.is_empty() {
             text += &format!(", then {}", list(&next));
         }
-        text += &format!("; {last} is last, {} times as slow.", short(best / worst));
+        text += &format!(
+            "; {last} is last and takes {} times as long.",
+            short(best / worst)
+        );
     }
     text += &threads_gain(study, scene);
     if !scene.subsets().is_empty() {
@@ -125,6 +128,12 @@ fn threads_gain(study: &Study, scene: &SceneReport) -> String {
     if gains.is_empty() {
         return String::new();
     }
+    // Rays share nothing, so threads of an idle machine should bring nearly their number.
+    let busy = if most < 1.3 && many >= 2 * few {
+        ", as on a machine that is busy with something else"
+    } else {
+        ""
+    };
     let (least, most) = (short(least), short(most));
-    format!(" {many} threads answer {least} to {most} times as many rays a second.")
+    format!(" {many} threads answer {least} to {most} times as many rays a second{busy}.")
 }

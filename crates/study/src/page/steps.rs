@@ -61,34 +61,35 @@ fn sentence(study: &Study, scene: &SceneReport, shown: &[&StructureReport]) -> S
     text
 }
 
-/// How well the number of steps foretells the time.
+/// What foretells time better, nodes or tests, and how well.
 fn agreement(study: &Study, shown: &[&StructureReport]) -> String {
     let few = study.fewest_threads();
-    let timed: Vec<_> = shown
-        .iter()
-        .filter_map(|report| {
-            let [nodes, tests] = report.steps();
-            Some((nodes + tests, report.speed(few)?))
-        })
+    let timed: Vec<_> = (shown.iter())
+        .filter_map(|report| Some((report.steps(), report.speed(few)?)))
         .collect();
-    let (mut pairs, mut alike) = (0, 0);
-    for (index, a) in timed.iter().enumerate() {
-        for b in &timed[..index] {
-            pairs += 1;
-            // Fewer steps, more speed.
-            alike += usize::from((a.0 < b.0) == (a.1 > b.1));
-        }
-    }
-    if pairs < 3 {
+    let count = timed.len() * timed.len().saturating_sub(1) / 2;
+    if count < 3 {
         return String::new();
     }
+    // Fewer steps, more speed.
+    let alike = |axis: usize| -> usize {
+        let beside = |(index, (steps, speed)): (usize, &([f64; 2], f64))| {
+            let others = timed[..index].iter();
+            let tells = others.filter(|other| (steps[axis] < other.0[axis]) == (*speed > other.1));
+            tells.count()
+        };
+        timed.iter().enumerate().map(beside).sum()
+    };
+    let [by_nodes, by_tests] = [alike(0), alike(1)];
+    let [nodes, tests] = [by_nodes, by_tests].map(|alike| alike as f64 / count as f64);
+    let so = match () {
+        () if nodes.max(tests) < 0.65 => "neither count alone tells the order",
+        () if tests > nodes => "tests tell the order better",
+        () if tests < nodes => "nodes tell the order better",
+        () => "both tell the order alike",
+    };
     format!(
-        " Of two structures the one with fewer steps in all (nodes and tests) is the faster one in {alike} of {pairs} \
-         pairs: {}.",
-        match alike as f64 / f64::from(pairs as u32) {
-            share if share >= 0.85 => "counting steps nearly tells the order",
-            share if share >= 0.65 => "counting steps tells much, but not all steps cost the same",
-            _ => "what a step costs matters more than how many there are",
-        }
+        " Of two structures the faster one is that with fewer tests in {by_tests} of {count} pairs, and that with fewer \
+         nodes in {by_nodes}: {so}."
     )
 }

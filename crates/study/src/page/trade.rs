@@ -165,7 +165,7 @@ mod tests {
             "small and fast",
             "large takes the most memory, 1.80 times",
             "67 %",
-            "slow (0.0100",
+            "slow (0.010",
         ] {
             assert!(says.contains(said), "{said}: {says}");
         }

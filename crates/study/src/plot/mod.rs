@@ -123,9 +123,11 @@ impl Svg {
     /// To stand in a page that has [`STYLE`]; `says` is for those who cannot see it.
     pub(crate) fn finish(&self, says: &str) -> String {
         format!(
-            "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
+            "<svg class=\"plot\" viewBox=\"0 0 {} {}\" style=\"max-width: {}px\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
             self.width,
             self.height,
+            // Letters are of one size in all plots of a wide page.
+            self.width * 1.1,
             escaped(says),
             self.text
         )

@@ -3,7 +3,7 @@
 use super::scale::label;
 use super::{Anchor, Scale, Svg, width_of};
 
-const WIDTH: f64 = 860.0;
+const WIDTH: f64 = 800.0;
 const TOP: f64 = 34.0;
 const ROW: f64 = 23.0;
 

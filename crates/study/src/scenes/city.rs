@@ -37,7 +37,7 @@ pub(super) fn scene(detail: u32) -> Result<Scene, SceneFault> {
         } else {
             1.0 + tall as f32 * 0.3
         };
-        let near = |i: u32| i as f32 + if i % BLOCK == 0 { 0.35 } else { 0.05 };
+        let near = |i: u32| i as f32 + if i.is_multiple_of(BLOCK) { 0.35 } else { 0.05 };
         let corner = Point3::new(near(x), 0.0, near(z));
         let far = Point3::new(x as f32 + 0.95, high, z as f32 + 0.95);
         put(&Aabb::around([corner, far]));

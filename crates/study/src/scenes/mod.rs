@@ -47,7 +47,7 @@ pub(crate) enum SceneFault {
     Pose(#[from] PoseError),
 }
 
-/// A scene of one light, like the sun, and nothing else yet.
+/// A scene of one light, like the sun in the evening, and nothing else yet.
 fn under_the_sun(from: Point3, to: Point3) -> Result<Scene, SceneFault> {
     let pose = Pose::look_at(from, to, Vector3::Y)?;
     let fov = Angle::from_degrees(50.0);
@@ -59,7 +59,7 @@ fn under_the_sun(from: Point3, to: Point3) -> Result<Scene, SceneFault> {
         ..Scene::default()
     };
     scene.lights.push(Light::Directional {
-        direction: Vector3::new(-1.0, -1.5, -0.6),
+        direction: Vector3::new(-1.0, -0.45, -0.4),
         intensity: Rgb::grey(0.8),
     });
     Ok(scene)
@@ -74,6 +74,7 @@ fn add(scene: &mut Scene, name: &str, mesh: TriangleMesh) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ombra::accel::Primitives as _;
 
     #[test]
     fn every_scene_can_be_made_coarse_and_fine() {
