@@ -29,7 +29,7 @@ figure { margin: 2rem 0 0; overflow-x: auto; } .plot[viewBox^='0 0 800'] { min-w
   background: currentColor; margin-right: .45em; } .families span { color: var(--ink); }
 nav ul { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; padding: 0; list-style: none; }
 a { color: var(--kd); } summary { cursor: pointer; margin: 1rem 0 .5rem; }
-td, th { white-space: nowrap; }
+.wide + .wide { margin-top: 1.25rem; }
 ";
 
 impl Study {

@@ -133,13 +133,16 @@ impl Svg {
         )
     }
 
-    /// To stand alone.
+    /// To stand alone, on paper of its own.
     pub(crate) fn alone(&self, says: &str) -> String {
-        let (width, height) = (self.width, self.height);
+        const MARGIN: f64 = 12.0;
+        let [width, height] = [self.width, self.height].map(|side| side + 2.0 * MARGIN);
+        let paper =
+            format!("x=\"-{MARGIN}\" y=\"-{MARGIN}\" width=\"{width}\" height=\"{height}\"");
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{}</title>\n<style>{STYLE}</style>\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"var(--paper)\"/>\n{}</svg>\n",
+             viewBox=\"-{MARGIN} -{MARGIN} {width} {height}\" role=\"img\">\n<title>{}</title>\n<style>{STYLE}</style>\n\
+             <rect {paper} fill=\"var(--paper)\"/>\n{}</svg>\n",
             escaped(says),
             self.text
         )
