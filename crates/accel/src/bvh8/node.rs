@@ -63,7 +63,8 @@ impl Child {
     /// A leaf of triangles.
     pub(crate) fn triangles(quad: usize, eight: bool) -> Self {
         debug_assert!(quad < (1 << 30) / 5, "a quad is found with 30 bits");
-        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | 5 * quad as u32)
+        let eight = if eight { Self::EIGHT } else { 0 };
+        Self(Self::LEAF | eight | (5 * quad as u32))
     }
 
     #[inline(always)]

@@ -229,8 +229,7 @@ impl Bins {
         let mut bins = Self::EMPTY;
         for item in items {
             let into = binning.bins(item);
-            for axis in 0..3 {
-                let bin = into[axis];
+            for (axis, &bin) in into[..3].iter().enumerate() {
                 bins.boxes[axis][bin].add(item);
                 bins.counts[axis][bin] += 1;
             }

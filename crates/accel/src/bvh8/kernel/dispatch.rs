@@ -5,8 +5,8 @@ use ombra_geometry::{EdgeRule, Hit, Ray};
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
 use super::level::{Lanes, Level, Portable};
-use super::ray::{Near, SingleRay};
 use super::many::many;
+use super::ray::{Near, SingleRay};
 use super::walk::{Any, Closest, Found, Said, Tree, walk};
 use crate::{AnyHit, Statistics};
 

@@ -1,6 +1,6 @@
 //! The walk of many rays at once, for rays that go much the same way.
 //!
-//! Sixty-four rays go down the tree together:
+//! Thirty-two rays go down the tree together:
 //!
 //! ```text
 //! while something waits:
@@ -15,7 +15,7 @@
 //! directions only the least and the largest are kept, which says where the first ray of the packet may
 //! enter a box and where the last one may leave it. Boulos, Wald, Shirley, "Geometric and Arithmetic
 //! Culling Methods for Entire Ray Packets", 2006; Reshetov, Soupikov, Hurley, "Multi-Level Ray Tracing
-//! Algorithm", 2005. That is sharp as long as the rays have much in common; [`Packet::new`] decides
+//! Algorithm", 2005. That is sharp as long as the rays have much in common; [`Packet::ready`] decides
 //! whether they have, so nobody has to declare it.
 //!
 //! Triangles are tested as in `walk`: the first half to the bit as the scalar test, the second half as
@@ -32,16 +32,16 @@ use super::ray::{LEAST, Near, PAD, PAD_AT};
 use super::walk::{Found, STACK, Tree, Word, edge};
 
 /// How many rays go together.
-pub(super) const PACKET: usize = 64;
+pub(super) const PACKET: usize = 32;
 /// Rays that are tested at once.
 const GROUP: usize = 8;
 const GROUPS: usize = PACKET / GROUP;
 
 /// Rays whose directions, scaled to a largest component of 1, differ by more than this in some
 /// component do not go together.
-const WIDTH_OF_DIRECTIONS: f32 = 0.25;
+const WIDTH_OF_DIRECTIONS: f32 = 0.6;
 /// Nor do those whose origins differ by more than this part of the extent of the structure.
-const WIDTH_OF_ORIGINS: f32 = 0.05;
+const WIDTH_OF_ORIGINS: f32 = 0.2;
 
 /// Numbers of all rays.
 type Each = [f32; PACKET];
@@ -63,6 +63,8 @@ pub(super) struct Packet {
     /// As bits.
     triangle: Each,
     axes: [usize; 3],
+    /// Whether all origins are one.
+    one_origin: bool,
     octant: u32,
     /// Of the packet: what is taken from planes on the side where rays enter boxes and on the other;
     /// the least and the largest reciprocal.
@@ -74,43 +76,57 @@ pub(super) struct Packet {
     first: f32,
 }
 
-/// Whether four of the rays go much the same way: if not there is no need to look at the others.
+/// Whether four of the chosen rays go much the same way: if not there is no need to look at the
+/// others.
 #[inline(always)]
-pub(super) fn may_go_together(rays: &[Ray; PACKET], near: &Near) -> bool {
+pub(super) fn may_go_together(rays: &[Ray], chosen: &[u16; PACKET], near: &Near) -> bool {
+    let ray = |k: usize| &rays[usize::from(chosen[k])];
     let widest = WIDTH_OF_ORIGINS * 2.0 * near.half;
-    let one = &rays[0];
-    let unit = one.direction.max_norm();
-    [21, 42, 63].iter().all(|&k| {
-        let other = &rays[k];
-        let turned = other.direction * (1.0 / other.direction.max_norm()) - one.direction * (1.0 / unit);
-        let moved = other.origin - one.origin;
-        (turned.max_norm() <= WIDTH_OF_DIRECTIONS) & (moved.max_norm() <= widest)
-    })
+    let way = |ray: &Ray| ray.direction * (1.0 / ray.direction.max_norm());
+    let first = ray(0);
+    [PACKET / 3, 2 * PACKET / 3, PACKET - 1]
+        .into_iter()
+        .all(|k| {
+            let other = ray(k);
+            let turned = way(other) - way(first);
+            let moved = other.origin - first.origin;
+            (turned.max_norm() <= WIDTH_OF_DIRECTIONS) & (moved.max_norm() <= widest)
+        })
+}
+
+/// Bit k: the direction's component k is negative.
+#[inline(always)]
+fn octant(ray: &Ray) -> u32 {
+    let [x, y, z] = ray.direction.to_array().map(|d| d.to_bits() >> 31);
+    x | y << 1 | z << 2
 }
 
 impl Packet {
-    /// Makes rays ready in `packet`; no if they are not to be traced together.
+    /// Makes the chosen rays, which are of one octant and along one axis, ready in `packet`; no if
+    /// they are not to be traced together.
     ///
     /// # Safety
     /// - The processor has the instructions of `L`.
     /// - `packet` may be written.
     #[inline(always)]
-    unsafe fn new<L: Lanes>(packet: *mut Self, rays: &[Ray; PACKET], near: &Near) -> bool {
-        let one = Watertight::new(&rays[0]);
+    unsafe fn ready<L: Lanes>(
+        packet: *mut Self,
+        rays: &[Ray],
+        chosen: &[u16; PACKET],
+        near: &Near,
+    ) -> bool {
+        let one = &rays[usize::from(chosen[0])];
+        let octant = octant(one);
+        let one = Watertight::new(one);
         let axes = one.axes().map(|axis| axis as usize);
-        let octant_of = |ray: &Ray| {
-            let [x, y, z] = ray.direction.to_array().map(|d| d.to_bits() >> 31);
-            x | y << 1 | z << 2
-        };
-        let octant = octant_of(&rays[0]);
         // SAFETY: the caller's promise; every number is written before it is read.
         unsafe {
             let packet = &mut *packet;
             packet.axes = axes;
             packet.octant = octant;
             let mut direction = [[0.0; PACKET]; 3];
-            let mut same = true;
-            for (k, ray) in rays.iter().enumerate() {
+            for (k, &number) in chosen.iter().enumerate() {
+                let ray = &rays[usize::from(number)];
                 let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
                 for axis in 0..3 {
                     packet.origin[axis][k] = o[axes[axis]];
@@ -118,10 +134,6 @@ impl Packet {
                 }
                 packet.t_min[k] = ray.t_min;
                 packet.t_max[k] = ray.t_max;
-                same &= octant_of(ray) == octant;
-            }
-            if !same {
-                return false;
             }
             // From here on by the axes where the rays are the z axis, until boxes are met.
             let (zero, one) = (L::splat(0.0), L::splat(1.0));
@@ -130,11 +142,18 @@ impl Packet {
             let (mut fits, mut first) = (255, L::splat(f32::INFINITY));
             for from in (0..PACKET).step_by(GROUP) {
                 let d = [0, 1, 2].map(|k| L::load(direction[k].as_ptr().add(from)));
-                let size = [d[0].larger(zero.minus(d[0])), d[1].larger(zero.minus(d[1])), d[2].larger(zero.minus(d[2]))];
+                let size = [
+                    d[0].larger(zero.minus(d[0])),
+                    d[1].larger(zero.minus(d[1])),
+                    d[2].larger(zero.minus(d[2])),
+                ];
                 // The same axis is the dominant one, and sizes are those of plain rays.
                 fits &= size[0].at_most(size[2]) & size[1].at_most(size[2]);
                 fits &= L::splat(1e-10).at_most(size[2]) & size[2].at_most(L::splat(1e10));
-                let (from_t, to_t) = (L::load(packet.t_min.as_ptr().add(from)), L::load(packet.t_max.as_ptr().add(from)));
+                let (from_t, to_t) = (
+                    L::load(packet.t_min.as_ptr().add(from)),
+                    L::load(packet.t_max.as_ptr().add(from)),
+                );
                 fits &= from_t.at_most(to_t);
                 first = first.smaller(from_t);
                 for axis in 0..3 {
@@ -146,14 +165,16 @@ impl Packet {
                     let [low, high] = ways[axis];
                     ways[axis] = [low.smaller(way), high.smaller(zero.minus(way))];
                 }
-                d[0].over(d[2]).store(packet.shear[0].as_mut_ptr().add(from));
-                d[1].over(d[2]).store(packet.shear[1].as_mut_ptr().add(from));
+                d[0].over(d[2])
+                    .store(packet.shear[0].as_mut_ptr().add(from));
+                d[1].over(d[2])
+                    .store(packet.shear[1].as_mut_ptr().add(from));
                 one.over(d[2]).store(packet.shear[2].as_mut_ptr().add(from));
             }
             if fits != 255 {
                 return false;
             }
-            let (mut away, mut at, mut unit) = (0.0_f32, 0.0_f32, f32::INFINITY);
+            let (mut away, mut at) = (0.0_f32, 0.0_f32);
             let (mut wide, mut turned) = (0.0_f32, 0.0_f32);
             let mut between = [[0.0; 2]; 3];
             for axis in 0..3 {
@@ -166,7 +187,6 @@ impl Packet {
                 let [slow, fast] = ways[axis].map(|x| least::<L>(x));
                 turned = turned.max(-fast - slow);
                 between[axis] = [low, high];
-                unit = unit.min(f32::INFINITY);
             }
             let together = (away <= near.limit)
                 & (wide <= WIDTH_OF_ORIGINS * 2.0 * near.half)
@@ -204,6 +224,7 @@ impl Packet {
                 packet.enter_from[space] = enter + signed;
                 packet.leave_from[space] = leave - signed;
             }
+            packet.one_origin = wide == 0.0;
             packet.triangle = [f32::from_bits(u32::MAX); PACKET];
         }
         true
@@ -237,7 +258,10 @@ unsafe fn least<L: Lanes>(of: L) -> f32 {
     unsafe { of.store(all.as_mut_ptr()) };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
     let [a, b, c, d, e, f, g, h] = all;
-    smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)))
+    smaller(
+        smaller(smaller(a, b), smaller(c, d)),
+        smaller(smaller(e, f), smaller(g, h)),
+    )
 }
 
 /// The test of eight boxes against the whole packet.
@@ -347,8 +371,8 @@ impl<L: Lanes> Slab<L> {
     }
 }
 
-/// Walks down the tree with sixty-four rays and tells their answers; no, and nothing done, if they do
-/// not go the same way.
+/// Walks down the tree with some of the rays, which are of one octant and along one axis, and tells
+/// the answers by their numbers; no, and nothing done, if they do not go the same way.
 ///
 /// # Safety
 /// - As for [`walk`](super::walk::walk).
@@ -356,7 +380,8 @@ impl<L: Lanes> Slab<L> {
 pub(super) unsafe fn packet<L: Lanes, W: Word>(
     tree: &Tree<'_>,
     near: &Near,
-    rays: &[Ray; PACKET],
+    rays: &[Ray],
+    chosen: &[u16; PACKET],
     mut answer: impl FnMut(usize, Found),
 ) -> bool {
     let mut packet = MaybeUninit::<Packet>::uninit();
@@ -368,7 +393,7 @@ pub(super) unsafe fn packet<L: Lanes, W: Word>(
     // they are read.
     unsafe {
         // At a root that is a leaf there is nothing to be saved.
-        if tree.root.is_leaf() || !Packet::new::<L>(packet.as_mut_ptr(), rays, near) {
+        if tree.root.is_leaf() || !Packet::ready::<L>(packet.as_mut_ptr(), rays, chosen, near) {
             return false;
         }
         let packet = packet.assume_init_mut();
@@ -399,7 +424,13 @@ pub(super) unsafe fn packet<L: Lanes, W: Word>(
                 let child = (*parent).child[slot];
                 let slab = Slab::<L>::new(parent, slot, &beam.enter);
                 if child.is_leaf() {
-                    if leaf::<L, W>(tree.leaf(child), child.places(), &slab, packet) {
+                    let (numbers, places) = (tree.leaf(child), child.places());
+                    let hit = if packet.one_origin {
+                        leaf::<L, W, true>(numbers, places, &slab, packet)
+                    } else {
+                        leaf::<L, W, false>(numbers, places, &slab, packet)
+                    };
+                    if hit {
                         last = packet.last::<L>();
                         if last == f32::NEG_INFINITY {
                             break 'search;
@@ -416,7 +447,14 @@ pub(super) unsafe fn packet<L: Lanes, W: Word>(
             let triangle = packet.triangle[k].to_bits();
             let (t, u, v) = (packet.t_max[k], packet.u[k], packet.v[k]);
             let found = Found { t, u, v, triangle };
-            answer(k, if triangle == u32::MAX { Found::NONE } else { found });
+            answer(
+                k,
+                if triangle == u32::MAX {
+                    Found::NONE
+                } else {
+                    found
+                },
+            );
         }
     }
     true
@@ -442,7 +480,7 @@ unsafe fn meets<L: Lanes>(slab: &Slab<L>, packet: &Packet) -> bool {
 /// # Safety
 /// - As for [`packet`]; and there is a leaf of so many places.
 #[inline(always)]
-unsafe fn leaf<L: Lanes, W: Word>(
+unsafe fn leaf<L: Lanes, W: Word, const ONE_ORIGIN: bool>(
     leaf: *const f32,
     places: usize,
     slab: &Slab<L>,
@@ -467,11 +505,22 @@ unsafe fn leaf<L: Lanes, W: Word>(
                 break;
             }
             let corner = |which: usize| {
-                packet.axes.map(|axis| *leaf.add((3 * which + axis) * places + k))
+                packet
+                    .axes
+                    .map(|axis| *leaf.add((3 * which + axis) * places + k))
             };
-            let corners = [corner(0), corner(1), corner(2)];
+            let mut corners = [corner(0), corner(1), corner(2)];
+            if ONE_ORIGIN {
+                // Once for all rays.
+                let origin = packet.origin.map(|of| of[0]);
+                for corner in &mut corners {
+                    for (coordinate, origin) in corner.iter_mut().zip(origin) {
+                        *coordinate -= origin;
+                    }
+                }
+            }
             for &(from, entered) in groups.get_unchecked(..count) {
-                hit |= test::<L, W>(corners, triangle, packet, from, entered);
+                hit |= test::<L, W, ONE_ORIGIN>(corners, triangle, packet, from, entered);
             }
         }
     }
@@ -479,12 +528,12 @@ unsafe fn leaf<L: Lanes, W: Word>(
 }
 
 /// Tests one triangle against a group of rays, of which those of some bits matter; whether there was
-/// a hit.
+/// a hit. If all origins are one the corners are relative to it.
 ///
 /// # Safety
 /// - As for [`packet`]; `from` is that of a group.
 #[inline(always)]
-unsafe fn test<L: Lanes, W: Word>(
+unsafe fn test<L: Lanes, W: Word, const ONE_ORIGIN: bool>(
     [a, b, c]: [[f32; 3]; 3],
     triangle: f32,
     packet: &mut Packet,
@@ -493,11 +542,13 @@ unsafe fn test<L: Lanes, W: Word>(
 ) -> bool {
     // SAFETY: the caller's promise.
     unsafe {
-        let o = load::<L>(&packet.origin, from);
         let s = load::<L>(&packet.shear, from);
-        let a = sheared(a, o, s);
-        let b = sheared(b, o, s);
-        let c = sheared(c, o, s);
+        let (mut a, mut b, mut c) = (splat(a), splat(b), splat(c));
+        if !ONE_ORIGIN {
+            let o = load::<L>(&packet.origin, from);
+            (a, b, c) = (moved(a, o), moved(b, o), moved(c, o));
+        }
+        let (a, b, c) = (sheared(a, s), sheared(b, s), sheared(c, s));
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         let (least, most) = (u.smaller(v).smaller(w), u.larger(v).larger(w));
         let zero = L::splat(0.0);
@@ -537,10 +588,16 @@ unsafe fn test<L: Lanes, W: Word>(
             return false;
         }
         // If any hit will do, the ray wants to know of no other.
-        let t = if W::ORDERED { t } else { L::splat(f32::NEG_INFINITY) };
+        let t = if W::ORDERED {
+            t
+        } else {
+            L::splat(f32::NEG_INFINITY)
+        };
         t.store_where(hits, packet.t_max.as_mut_ptr().add(from));
-        v.rounded().store_where(hits, packet.u.as_mut_ptr().add(from));
-        w.rounded().store_where(hits, packet.v.as_mut_ptr().add(from));
+        v.rounded()
+            .store_where(hits, packet.u.as_mut_ptr().add(from));
+        w.rounded()
+            .store_where(hits, packet.v.as_mut_ptr().add(from));
         L::splat(triangle).store_where(hits, packet.triangle.as_mut_ptr().add(from));
         true
     }
@@ -562,18 +619,24 @@ unsafe fn load<L: Lanes>(of: &[Each; 3], from: usize) -> [L; 3] {
     }
 }
 
-/// A corner relative to the origins of eight rays, and sheared.
+/// A corner relative to the origins of eight rays.
 ///
 /// # Safety
 /// - The processor has the instructions of `L`.
 #[inline(always)]
-unsafe fn sheared<L: Lanes>(corner: [f32; 3], origin: [L; 3], shear: [L; 3]) -> [L; 3] {
+unsafe fn moved<L: Lanes>([x, y, z]: [L; 3], origin: [L; 3]) -> [L; 3] {
     // SAFETY: the caller's promise.
-    unsafe {
-        let [x, y, z] = splat::<L>(corner);
-        let (x, y, z) = (x.minus(origin[0]), y.minus(origin[1]), z.minus(origin[2]));
-        [x.minus(shear[0].times(z)), y.minus(shear[1].times(z)), z]
-    }
+    unsafe { [x.minus(origin[0]), y.minus(origin[1]), z.minus(origin[2])] }
+}
+
+/// A corner sheared.
+///
+/// # Safety
+/// - The processor has the instructions of `L`.
+#[inline(always)]
+unsafe fn sheared<L: Lanes>([x, y, z]: [L; 3], shear: [L; 3]) -> [L; 3] {
+    // SAFETY: the caller's promise.
+    unsafe { [x.minus(shear[0].times(z)), y.minus(shear[1].times(z)), z] }
 }
 
 /// Three components in double precision.

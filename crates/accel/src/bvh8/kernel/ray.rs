@@ -129,8 +129,7 @@ impl SingleRay {
         let sum = (ox + oy + oz) * 0.0 + (size[0] + size[1] + size[2]);
         let plain = (away <= near.limit)
             & (sum <= 3e10)
-            & (unit >= 1e-10)
-            & (unit <= 1e10)
+            & (1e-10..=1e10).contains(&unit)
             & (ray.t_min <= ray.t_max);
         if !plain {
             return None;
