@@ -5,13 +5,17 @@
 
 mod answers;
 mod custom;
+mod distances;
 mod instances;
+mod masks;
+mod measured;
 mod meshes;
 mod numbers;
 mod proptests;
 mod rays;
 mod real_meshes;
 mod statistics;
+mod stretched;
 mod watertight;
 
 use ombra_accel::{Geometry, Primitives, Shapes};
