@@ -5,6 +5,7 @@
 
 mod answers;
 mod custom;
+mod degenerate;
 mod distances;
 mod instances;
 mod masks;
@@ -14,6 +15,7 @@ mod numbers;
 mod proptests;
 mod rays;
 mod real_meshes;
+mod scale;
 mod statistics;
 mod stretched;
 mod watertight;
