@@ -52,12 +52,12 @@ impl Boxes {
         let mut squared = [0.0; WIDTH];
         match self {
             Self::Unmoved(point) => {
-                for axis in 0..3 {
-                    for k in 0..WIDTH {
-                        let below = f64::from(node.lower[axis][k]) - point[axis];
-                        let above = point[axis] - f64::from(node.upper[axis][k]);
+                for ((point, lower), upper) in point.iter().zip(&node.lower).zip(&node.upper) {
+                    for (k, squared) in squared.iter_mut().enumerate() {
+                        let below = f64::from(lower[k]) - point;
+                        let above = point - f64::from(upper[k]);
                         let off = larger(larger(below, above), 0.0);
-                        squared[k] += off * off;
+                        *squared += off * off;
                     }
                 }
             }

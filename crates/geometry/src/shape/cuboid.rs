@@ -59,7 +59,7 @@ impl Surface for Cuboid {
     }
 
     fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
-        self.slabs.to_nearest(point.to_vector())
+        self.slabs.nearest(point.to_vector())
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -82,7 +82,7 @@ impl Surface for OrientedBox {
 
     fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
         let local = self.frame.local(point);
-        self.frame.world_vector(self.slabs.to_nearest(local))
+        self.frame.world_vector(self.slabs.nearest(local))
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

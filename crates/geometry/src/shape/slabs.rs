@@ -38,7 +38,7 @@ impl Slabs {
     }
 
     /// From a point to the nearest point of the surface.
-    pub(super) fn to_nearest(&self, point: Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn nearest(&self, point: Vector3<f64>) -> Vector3<f64> {
         let mut to = Vector3::new(0.0, 0.0, 0.0);
         for axis in Axis::ALL {
             // At most one of the two is not 0.
