@@ -233,7 +233,7 @@ impl<P: Measured> Measured for Instances<P> {
     fn measure(&self, primitive: u32, place: &Place<'_>, nearby: &mut Nearby) -> ControlFlow<()> {
         let Entry { instance, shape } = self.entries[primitive as usize];
         let own = &self.instances[instance as usize];
-        if own.mask == 0 {
+        if !nearby.sees(own.mask) {
             return ControlFlow::Continue(());
         }
         let back = self.object_from_world[instance as usize].as_ref();

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use ombra_geometry::{Aabb, EdgeRule, Ray};
 
 use crate::{
-    Accel, AnyHit, Candidate, Counter, Instances, Primitives, Statistics, Traversable, TraversalRay,
+    Accel, AnyHit, Candidate, Counter, Distances, Instances, Measured, NoDistance, Primitives,
+    Statistics, Traversable, TraversalRay,
 };
 
 /// Instances as queries with a mask see them: those whose [mask](crate::Instance::mask) has a bit in
@@ -32,6 +33,16 @@ impl<P: Primitives> Accel<Instances<P>> {
     #[must_use]
     pub const fn masked(&self, mask: u32) -> Masked<'_, P> {
         Masked { accel: self, mask }
+    }
+}
+
+impl<'a, P: Measured> Masked<'a, P> {
+    /// What answers questions about distances from what is seen.
+    ///
+    /// # Errors
+    /// As for [`Accel::distances`], seen or not.
+    pub fn distances(&self) -> Result<Distances<'a, Instances<P>>, NoDistance> {
+        self.accel.distances_seen(self.mask)
     }
 }
 

@@ -98,6 +98,7 @@ impl std::error::Error for NoDistance {}
 #[derive(Debug)]
 pub struct Distances<'a, P> {
     accel: &'a Accel<P>,
+    mask: u32,
 }
 
 impl<P> Clone for Distances<'_, P> {
@@ -116,8 +117,13 @@ impl<P: Measured> Accel<P> {
     /// # Errors
     /// Names the first primitive from which no distance can be measured.
     pub fn distances(&self) -> Result<Distances<'_, P>, NoDistance> {
+        self.distances_seen(u32::MAX)
+    }
+
+    /// The same of what a mask sees.
+    pub(crate) fn distances_seen(&self, mask: u32) -> Result<Distances<'_, P>, NoDistance> {
         self.primitives().check(None)?;
-        Ok(Distances { accel: self })
+        Ok(Distances { accel: self, mask })
     }
 }
 
@@ -128,21 +134,23 @@ impl<P: Measured> Distances<'_, P> {
     /// point that is not finite, and within a distance that is NaN or negative, there is nothing.
     #[must_use]
     pub fn closest_point(&self, point: Point3<f64>, max_distance: f64) -> Option<ClosestPoint> {
-        self.ask(point, Nearby::closest(max_distance))
+        self.ask(point, Nearby::closest(self.mask, max_distance))
             .into_closest()
     }
 
     /// Whether anything is not further away than `distance`.
     #[must_use]
     pub fn within_distance(&self, point: Point3<f64>, distance: f64) -> bool {
-        self.ask(point, Nearby::any(distance)).is_found()
+        self.ask(point, Nearby::any(self.mask, distance)).is_found()
     }
 
     /// The nearest point of each primitive that is not further away than `distance`, near to far, in
     /// place of what `found` held.
     pub fn all_within(&self, point: Point3<f64>, distance: f64, found: &mut Vec<ClosestPoint>) {
         let list = std::mem::take(found);
-        *found = self.ask(point, Nearby::all(distance, list)).into_all();
+        *found = self
+            .ask(point, Nearby::all(self.mask, distance, list))
+            .into_all();
     }
 
     fn ask(&self, point: Point3<f64>, mut nearby: Nearby) -> Nearby {

@@ -11,6 +11,7 @@ use super::{ClosestPoint, Place};
 /// A question about distances under way.
 #[derive(Debug)]
 pub struct Nearby {
+    mask: u32,
     limit: f64,
     found: Found,
 }
@@ -23,20 +24,27 @@ enum Found {
 }
 
 impl Nearby {
-    pub(super) const fn closest(limit: f64) -> Self {
-        let found = Found::Closest(None);
-        Self { limit, found }
+    const fn new(mask: u32, limit: f64, found: Found) -> Self {
+        Self { mask, limit, found }
     }
 
-    pub(super) const fn any(limit: f64) -> Self {
-        let found = Found::Any(false);
-        Self { limit, found }
+    pub(super) const fn closest(mask: u32, limit: f64) -> Self {
+        Self::new(mask, limit, Found::Closest(None))
     }
 
-    pub(super) fn all(limit: f64, mut list: Vec<ClosestPoint>) -> Self {
+    pub(super) const fn any(mask: u32, limit: f64) -> Self {
+        Self::new(mask, limit, Found::Any(false))
+    }
+
+    pub(super) fn all(mask: u32, limit: f64, mut list: Vec<ClosestPoint>) -> Self {
         list.clear();
-        let found = Found::All(list);
-        Self { limit, found }
+        Self::new(mask, limit, Found::All(list))
+    }
+
+    /// Whether it is asked of an instance with this mask.
+    #[inline]
+    pub(crate) const fn sees(&self, mask: u32) -> bool {
+        self.mask & mask != 0
     }
 
     /// What is farther away than this (strictly) need not be measured. It shrinks as nearer points

@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use ombra_accel::{Accel, Geometry, Instance, Instances, Shapes, StructureKind, Traversable};
+use ombra_accel::{
+    Accel, ClosestPoint, Geometry, Instance, Instances, Shapes, StructureKind, Traversable,
+};
 use ombra_geometry::shape::{Shape, Sphere};
 use ombra_geometry::{GeometryId, Hit, Point3, Transform, Vector3};
 
+use crate::numbers::Numbers;
 use crate::{meshes, rays};
 
 /// Two geometries, of which one is shapes, eleven times each, with masks.
@@ -94,6 +97,47 @@ fn a_query_without_a_mask_has_all_bits() {
             assert_eq!(hit, accel.masked(u32::MAX).intersect(&ray), "{kind}");
             // Whose mask is 0 is never seen: every eleventh, from the sixth.
             assert!(hit.is_none_or(|hit| hit.instance.0 % 11 != 5), "{kind}");
+        }
+    }
+}
+
+#[test]
+fn distances_are_asked_of_what_a_mask_sees() {
+    let all = placements();
+    for kind in [StructureKind::BruteForce, StructureKind::default()] {
+        let accel = build(kind, all.clone());
+        let mut numbers = Numbers::new(91);
+        for mask in [0, 1, 6, 1 << 31, u32::MAX] {
+            let seen: Vec<u32> = (0..all.len() as u32)
+                .filter(|&i| all[i as usize].mask & mask != 0)
+                .collect();
+            let left = seen.iter().map(|&i| all[i as usize].clone()).collect();
+            let (expected, masked) = (build(kind, left), accel.masked(mask));
+            let (expected, masked) = (expected.distances(), masked.distances());
+            let (expected, masked) = (expected.unwrap(), masked.unwrap());
+            let (mut found, mut found_left) = (Vec::new(), Vec::new());
+            for _ in 0..50 {
+                let point = numbers.point(4.0).wide();
+                let numbered = |mut near: ClosestPoint| {
+                    near.instance.0 = seen[near.instance.index()];
+                    near
+                };
+                let nearest = expected.closest_point(point, f64::INFINITY).map(numbered);
+                assert_eq!(
+                    masked.closest_point(point, f64::INFINITY),
+                    nearest,
+                    "{kind}, {mask:b}"
+                );
+                assert_eq!(
+                    masked.within_distance(point, 0.5),
+                    expected.within_distance(point, 0.5)
+                );
+                masked.all_within(point, 1.5, &mut found);
+                expected.all_within(point, 1.5, &mut found_left);
+                let found_left = found_left.iter().copied().map(numbered);
+                assert!(found.iter().copied().eq(found_left), "{kind}, {mask:b}");
+                assert_eq!(nearest.is_none(), mask == 0, "{kind}, {mask:b}");
+            }
         }
     }
 }
