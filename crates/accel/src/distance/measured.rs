@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use ombra_geometry::triangle::nearest;
 use ombra_geometry::{
-    GeometryId, InstanceId, Object, Point3, PrimitiveId, Transform, TriangleMesh, World,
+    GeometryId, InstanceId, Object, Point3, PrimitiveId, Transform, TriangleMesh, Vector3, World,
 };
 
 use super::{Nearby, NoDistance, placed};
@@ -92,6 +92,17 @@ impl Measured for Mesh {
     }
 }
 
+/// The distance from the origin to the box around three points; not more than that to what lies
+/// between them, as it is rounded (see `boxes`).
+#[inline]
+fn box_distance([a, b, c]: [Vector3<f64>; 3]) -> f64 {
+    let off = |a: f64, b: f64, c: f64| {
+        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+        least.max(-most).max(0.0)
+    };
+    Vector3::new(off(a.x, b.x, c.x), off(a.y, b.y, c.y), off(a.z, b.z, c.z)).length()
+}
+
 /// A triangle is measured where it stands, so that any placement will do.
 #[inline]
 fn of_triangle(
@@ -105,7 +116,9 @@ fn of_triangle(
         None => corners,
         Some(placed) => corners.map(|corner| placed.world_from_object.point(corner)),
     };
-    if corners.iter().all(|corner| corner.is_finite()) {
+    // Most triangles of a leaf are ruled out by their box, which takes no division.
+    let around = box_distance(corners.map(|corner| corner - place.point));
+    if around <= nearby.limit() && corners.iter().all(|corner| corner.is_finite()) {
         nearby.report(place, primitive, &nearest(place.point, corners))?;
     }
     ControlFlow::Continue(())
