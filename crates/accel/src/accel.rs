@@ -1,13 +1,16 @@
 //! A structure over primitives: what answers queries.
 
+use std::ops::ControlFlow;
+
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 use rayon::prelude::*;
 
 use crate::bvh8::{Bvh8, Item, Level};
+use crate::distance::Boxes;
 use crate::search::Search;
 use crate::{
-    AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, Statistics,
-    StructureKind, Traversable, TraversalRay, Visitor,
+    AnyHit, AnyStructure, Bounded, Candidate, Counter, Measured, Nearby, Place, Primitives, Reach,
+    Span, Statistics, StructureKind, Traversable, TraversalRay, Visitor,
 };
 
 /// Primitives with a structure over them.
@@ -77,6 +80,11 @@ impl<P: Primitives> Accel<P> {
         &self.primitives
     }
 
+    /// What bounds the rounding of queries.
+    pub(crate) const fn reach(&self) -> &Reach {
+        &self.reach
+    }
+
     /// The same, traced with a level of instructions that is not the best one of this machine. What
     /// is not traced by kernels stays as it is.
     ///
@@ -116,12 +124,42 @@ impl<P: Primitives> Accel<P> {
         {
             return found;
         }
-        let mut search = Search::new(&self.primitives, &ray, rule, counter, any_hit);
+        self.search_among(&self.primitives, &ray, rule, counter, any_hit)
+    }
+
+    /// The same among primitives that are these, or fewer of them.
+    pub(crate) fn search_among<Q: Primitives, C: Counter>(
+        &self,
+        primitives: &Q,
+        ray: &TraversalRay,
+        rule: EdgeRule,
+        counter: &mut C,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
+    ) -> Option<Candidate> {
+        let mut search = Search::new(primitives, ray, rule, counter, any_hit);
         if search.leaf(&self.unbounded, Span::ALL).is_continue() {
             // Broken off or not, what was accepted is in the search.
-            let _ = self.structure.traverse(&ray, &mut search);
+            let _ = self.structure.traverse(ray, &mut search);
         }
         search.best()
+    }
+}
+
+impl<P: Measured> Accel<P> {
+    /// Shows all primitives that may be near enough; see [`Distances`](crate::Distances).
+    pub(crate) fn measure(&self, place: &Place<'_>, nearby: &mut Nearby) -> ControlFlow<()> {
+        let measure = |list: &[u32], nearby: &mut Nearby| {
+            list.iter()
+                .try_for_each(|&own| self.primitives.measure(own, place, nearby))
+        };
+        if let AnyStructure::Bvh8(bvh) = &self.structure {
+            measure(&self.unbounded, nearby)?;
+            let boxes = Boxes::new(place, &self.reach);
+            return bvh.tree.measure(&boxes, nearby, measure);
+        }
+        (0..self.primitives.len() as u32)
+            .filter(|&own| !self.primitives.bounds(own).is_empty())
+            .try_for_each(|own| self.primitives.measure(own, place, nearby))
     }
 }
 

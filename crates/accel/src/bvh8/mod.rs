@@ -13,6 +13,7 @@
 mod build;
 mod collapse;
 mod kernel;
+mod near;
 mod node;
 mod quad;
 mod traverse;
@@ -30,6 +31,7 @@ use node::Child;
 use quad::Quad;
 
 pub use kernel::Level;
+pub(crate) use node::{Node, WIDTH};
 
 /// How much care a builder takes.
 pub trait Care: Clone + std::fmt::Debug + Send + Sync + 'static {}

@@ -45,17 +45,24 @@ impl Wide {
     fn leaf<V: Visitor>(&self, leaf: Child, visitor: &mut V) -> ControlFlow<()> {
         match &self.leaves {
             Leaves::Lists(list) => visitor.leaf(&list[leaf.range()], Span::ALL),
+            Leaves::Quads(_) => visitor.leaf(&self.list(leaf), Span::ALL),
+        }
+    }
+
+    /// The numbers of the primitives in a leaf.
+    pub(super) fn list(&self, leaf: Child) -> ArrayVec<u32, WIDTH> {
+        match &self.leaves {
+            Leaves::Lists(list) => list[leaf.range()].iter().copied().collect(),
             Leaves::Quads(quads) => {
                 let places = leaf.places();
                 let numbers = |k: usize| {
                     let at = 9 * places + k;
                     quads[leaf.quad() + at / 40].numbers[at % 40].to_bits()
                 };
-                let list: ArrayVec<u32, WIDTH> = (0..places)
+                (0..places)
                     .map(numbers)
                     .filter(|&n| n != u32::MAX)
-                    .collect();
-                visitor.leaf(&list, Span::ALL)
+                    .collect()
             }
         }
     }

@@ -5,13 +5,19 @@
 
 mod answers;
 mod custom;
+mod degenerate;
+mod distances;
 mod instances;
+mod masks;
+mod measured;
 mod meshes;
 mod numbers;
 mod proptests;
 mod rays;
 mod real_meshes;
+mod scale;
 mod statistics;
+mod stretched;
 mod watertight;
 
 use ombra_accel::{Geometry, Primitives, Shapes};

@@ -57,6 +57,19 @@ impl Surface for Disk {
         Aabb::enclosing(Aabb::around([centre - reach, centre + reach]))
     }
 
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let local = self.frame.local(point);
+        let out = local.x.hypot(local.y);
+        // Within the rim it is straight down.
+        let inward = if out > self.radius {
+            self.radius / out - 1.0
+        } else {
+            0.0
+        };
+        let to = Vector3::new(local.x * inward, local.y * inward, -local.z);
+        self.frame.world_vector(to)
+    }
+
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         SurfacePoint {
             normal: self.frame.z.to_normal(),

@@ -155,6 +155,18 @@ pub(super) fn unit(x: f64) -> f32 {
     }
 }
 
+/// The shortest of some ways, the first of equally short ones.
+pub(super) fn nearest_of(ways: impl IntoIterator<Item = Vector3<f64>>) -> Vector3<f64> {
+    let longest = Vector3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+    ways.into_iter().fold(longest, |nearest, way| {
+        if way.length_squared() < nearest.length_squared() {
+            way
+        } else {
+            nearest
+        }
+    })
+}
+
 /// What a disk of radius 1 with unit normal `axis` takes up along each axis of the world.
 pub(super) fn disk_reach(axis: Vector3<f64>) -> Vector3<f64> {
     // Not √(1 − x²): near an axis that would round to 0 or to 1.

@@ -18,6 +18,7 @@ mod cuboid;
 mod cylinder;
 mod disk;
 mod error;
+mod faces;
 mod frame;
 mod frustum;
 mod interval;
@@ -77,6 +78,11 @@ pub trait Surface {
     {
         self.crossings(ray).into_iter().try_for_each(visit)
     }
+
+    /// From a point to the point of the surface that is nearest to it; if there are several, to one of
+    /// them. A closed shape is its surface here too: inside it, the way out is meant. For the point
+    /// and the shape to have one they must be finite and not degenerate.
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64>;
 
     /// What the surface is like at a point on it. A point that is off by rounding is answered as
     /// the nearest one on the surface.
@@ -144,6 +150,10 @@ macro_rules! delegate_surface {
 
             fn bounds(&self) -> $crate::Aabb {
                 self.0.bounds()
+            }
+
+            fn to_nearest(&self, point: $crate::Point3<f64>) -> $crate::Vector3<f64> {
+                self.0.to_nearest(point)
             }
 
             fn surface_at(&self, point: $crate::Point3<f64>) -> $crate::shape::SurfacePoint {
@@ -233,6 +243,10 @@ impl Surface for Shape {
 
     fn bounds(&self) -> Aabb {
         each!(self, shape => shape.bounds())
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        each!(self, shape => shape.to_nearest(point))
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

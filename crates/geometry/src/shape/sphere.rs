@@ -92,6 +92,12 @@ impl Surface for Sphere {
         Aabb::enclosing(Aabb::around([centre]).padded(f64::from(self.radius)))
     }
 
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let from_centre = point - self.centre.wide();
+        let outward = self.normal_at(point).to_vector();
+        outward * (f64::from(self.radius) - from_centre.length())
+    }
+
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         let normal = self.normal_at(point);
         SurfacePoint {
