@@ -7,7 +7,6 @@
 mod dispatch;
 mod level;
 mod many;
-mod packet;
 mod ray;
 mod stream;
 mod walk;
