@@ -1,12 +1,11 @@
-//! All scenes together, each structure by the default one.
-
-use ombra::accel::StructureKind;
+//! All scenes together, each structure by the binary hierarchy that courses teach.
 
 use super::figure as framed;
 use super::trade::{Place, scatter, sentence, split};
 use crate::family::Family;
 use crate::numbers::{list, percent, short};
 use crate::plot::{Mark, Strip, Svg};
+use crate::santos::BOXES;
 use crate::spread::geometric_mean;
 use crate::{SceneReport, Study, Workload};
 
@@ -16,7 +15,7 @@ const FORCE: &str = "brute-force";
 /// A structure over all scenes.
 struct Overall {
     name: &'static str,
-    /// Speed over that of the default structure, for each scene and kind of rays.
+    /// Speed over that of `bvh`, for each scene and kind of rays.
     ratios: Vec<f64>,
     speed: f64,
     memory: Option<f64>,
@@ -44,7 +43,7 @@ pub(super) fn drawing(study: &Study) -> Option<String> {
 /// All but those that were not measured where the default was; none if that was not measured.
 fn overall(study: &Study) -> Vec<Overall> {
     let few = study.fewest_threads();
-    let base = StructureKind::default().name();
+    let base = BOXES;
     let one = |name: &'static str| {
         let scenes = || study.timed_scenes();
         let of_scene = |scene: &SceneReport| -> Vec<f64> {
@@ -107,7 +106,7 @@ fn range(ratios: &[f64]) -> [f64; 2] {
 fn strip_sentence(all: &[Overall]) -> String {
     let mut ranked: Vec<_> = all.iter().collect();
     ranked.sort_by(|a, b| b.speed.total_cmp(&a.speed));
-    let base = StructureKind::default().name();
+    let base = BOXES;
     let first = ranked[0];
     let mut text = format!("Over all scenes and rays {} is the fastest", first.name);
     if first.name != base {
