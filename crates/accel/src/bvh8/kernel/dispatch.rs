@@ -2,11 +2,13 @@
 
 use ombra_geometry::{EdgeRule, Hit, Ray};
 
+use super::super::node::{Child, Node};
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
 use super::level::{Lanes, Level, Portable};
-use super::ray::{Near, SingleRay};
+use super::lists::{BoxRay, entered};
 use super::many::many;
+use super::ray::{Near, SingleRay};
 use super::walk::{Any, Closest, Found, Said, Tree, walk};
 use crate::{AnyHit, Statistics};
 
@@ -79,6 +81,8 @@ kernels! {
     fn search_counted(tree: &Tree<'_>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
     /// Whether there is a hit; `None` if this ray is not for the kernels.
     fn any(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> = any_hit;
+    /// One node of a walk to lists.
+    fn enter(node: &Node, ray: &BoxRay, t_max: f32, to: *mut Child, entries: *mut f32) -> usize = entered;
 }
 
 #[inline(always)]
