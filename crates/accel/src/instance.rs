@@ -39,6 +39,7 @@ pub struct Instances<P> {
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     instance: u32,
+    geometry: GeometryId,
     /// A shape of that instance; otherwise it is all of it.
     shape: Option<u32>,
 }
@@ -74,6 +75,7 @@ impl<P: Primitives> Instances<P> {
                 for shape in 0..shapes.len() as u32 {
                     entries.push(Entry {
                         instance: index,
+                        geometry: instance.geometry,
                         shape: Some(shape),
                     });
                     let own = shapes.bounds(shape);
@@ -82,6 +84,7 @@ impl<P: Primitives> Instances<P> {
             } else {
                 entries.push(Entry {
                     instance: index,
+                    geometry: instance.geometry,
                     shape: None,
                 });
                 let own = geometry.bounds();
@@ -109,7 +112,7 @@ impl<P: Primitives> Instances<P> {
         &self.instances
     }
 
-    #[inline]
+    #[inline(always)]
     fn local(&self, instance: u32, ray: &TraversalRay, t_max: f64) -> Ray<f64> {
         let mut local = match &self.object_from_world[instance as usize] {
             None => ray.ray,
@@ -146,8 +149,11 @@ impl<P: Primitives> Primitives for Instances<P> {
         report: &mut F,
     ) -> ControlFlow<()> {
         counter.test();
-        let Entry { instance, shape } = self.entries[primitive as usize];
-        let geometry = self.instances[instance as usize].geometry;
+        let Entry {
+            instance,
+            geometry,
+            shape,
+        } = self.entries[primitive as usize];
         let local = self.local(instance, ray, t_max);
         let mut terminated = ControlFlow::Continue(());
         let mut place = |candidate: &Candidate| {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use arrayvec::ArrayVec;
 
-use super::kernel::{self, BoxRay, STACK};
+use super::kernel::{self, STACK};
 use super::node::{Child, WIDTH};
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
@@ -19,7 +19,7 @@ impl Wide {
         visitor: &mut V,
     ) -> ControlFlow<()> {
         if let Leaves::Lists(list) = &self.leaves
-            && let Some(ray) = BoxRay::new(ray, &self.near)
+            && let Some(ray) = kernel::ready(self.level, ray, &self.near)
         {
             return kernel::walk_lists(self, list, &ray, visitor);
         }

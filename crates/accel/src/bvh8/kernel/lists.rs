@@ -37,8 +37,8 @@ pub(crate) struct BoxRay {
 
 impl BoxRay {
     /// `None` if boxes are to be tested in double precision.
-    #[inline]
-    pub(crate) fn new(ray: &TraversalRay, near: &Near) -> Option<Self> {
+    #[inline(always)]
+    fn new(ray: &TraversalRay, near: &Near) -> Option<Self> {
         let [ox, oy, oz] = ray.ray.origin.cast::<f32>().to_array();
         let [dx, dy, dz] = ray.ray.direction.cast::<f32>().to_array();
         let (origin, direction) = ([ox, oy, oz, 0.0], [dx, dy, dz, 1.0]);
@@ -73,21 +73,28 @@ impl BoxRay {
     }
 }
 
-/// The largest single that is not above a number.
+/// [`BoxRay::new`], for each level.
+///
+/// # Safety
+/// - The processor has the instructions of `L`.
+#[inline(always)]
+pub(super) unsafe fn readied<L: Lanes>(ray: &TraversalRay, near: &Near) -> Option<BoxRay> {
+    BoxRay::new(ray, near)
+}
+
+/// A single that is not above a number, and next to it.
 #[inline]
 fn at_most(x: f64) -> f32 {
     -at_least(-x)
 }
 
-/// The smallest single that is not below a number.
+/// A single that is not below a number, and next to it.
 #[inline]
 fn at_least(x: f64) -> f32 {
-    let rounded = x as f32;
-    if f64::from(rounded) < x {
-        rounded.next_up()
-    } else {
-        rounded
-    }
+    // Rounding takes away less than half of what is added. Below all finite singles, or NaN for −∞, it
+    // is the least of them.
+    let above = (x + x.abs() * f64::from(f32::EPSILON) + f64::from(f32::MIN_POSITIVE)) as f32;
+    if above >= f32::MIN { above } else { f32::MIN }
 }
 
 /// Walks down a tree and shows the visitor what the leaves list.
@@ -181,7 +188,9 @@ mod tests {
 
     #[test]
     fn ranges_are_rounded_outward() {
-        for x in [0.1, -0.1, 1.0, 1e300, -1e300, 1e-300, 0.0, f64::INFINITY] {
+        assert_eq!(at_least(f64::INFINITY), f32::INFINITY);
+        assert_eq!(at_least(f64::NEG_INFINITY), f32::MIN);
+        for x in [0.1, -0.1, 1.0, 1e300, -1e300, 1e-300, 0.0] {
             assert!(
                 f64::from(at_most(x)) <= x && x <= f64::from(at_least(x)),
                 "{x}"

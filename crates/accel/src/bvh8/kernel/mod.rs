@@ -15,7 +15,7 @@ mod walk;
 
 pub use level::Level;
 
-pub(super) use dispatch::{any, any_many, closest, closest_many, search, search_counted};
-pub(super) use lists::{BoxRay, walk_lists};
+pub(super) use dispatch::{any, any_many, closest, closest_many, ready, search, search_counted};
+pub(super) use lists::walk_lists;
 pub(super) use ray::{Near, SingleRay};
 pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree, stack};
