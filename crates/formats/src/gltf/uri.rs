@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn broken_data_uris_are_named() {
-        let error = |uri| data(uri).unwrap().unwrap_err();
+        let error = |uri: &str| data(uri).unwrap().unwrap_err();
         assert!(error("data:;base64,@@@@").contains("cannot be decoded as base64"));
         for (wrong, right) in [("@@@@", "A-Z"), ("AQIDA", "left over"), ("AQJ=", "0")] {
             let said = error(&format!("data:;base64,{wrong}"));
