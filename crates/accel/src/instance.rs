@@ -58,6 +58,8 @@ pub struct Instances<P> {
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     instance: u32,
+    geometry: GeometryId,
+    mask: u32,
     /// A shape of that instance; otherwise it is all of it.
     shape: Option<u32>,
 }
@@ -93,6 +95,8 @@ impl<P: Primitives> Instances<P> {
                 for shape in 0..shapes.len() as u32 {
                     entries.push(Entry {
                         instance: index,
+                        geometry: instance.geometry,
+                        mask: instance.mask,
                         shape: Some(shape),
                     });
                     let own = shapes.bounds(shape);
@@ -101,6 +105,8 @@ impl<P: Primitives> Instances<P> {
             } else {
                 entries.push(Entry {
                     instance: index,
+                    geometry: instance.geometry,
+                    mask: instance.mask,
                     shape: None,
                 });
                 let own = geometry.bounds();
@@ -139,12 +145,17 @@ impl<P: Primitives> Instances<P> {
         counter: &mut C,
         report: &mut F,
     ) -> ControlFlow<()> {
-        let Entry { instance, shape } = self.entries[primitive as usize];
-        if self.instances[instance as usize].mask & mask == 0 {
+        let entry = self.entries[primitive as usize];
+        if entry.mask & mask == 0 {
             return ControlFlow::Continue(());
         }
         counter.test();
-        let geometry = self.instances[instance as usize].geometry;
+        let Entry {
+            instance,
+            geometry,
+            shape,
+            ..
+        } = entry;
         let local = self.local(instance, ray, t_max);
         let mut terminated = ControlFlow::Continue(());
         let mut place = |candidate: &Candidate| {
@@ -169,7 +180,7 @@ impl<P: Primitives> Instances<P> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn local(&self, instance: u32, ray: &TraversalRay, t_max: f64) -> Ray<f64> {
         let mut local = match &self.object_from_world[instance as usize] {
             None => ray.ray,

@@ -4,11 +4,12 @@
 //! 1. a builder cuts the list of primitives in two again and again, down to lists of at most eight
 //!    (`build`);
 //! 2. nodes take in what is below them until they have eight children (`collapse`, `node`);
-//! 3. if the primitives are triangles they are copied into the leaves (`quad`).
+//! 3. if the primitives are triangles they are copied into the leaves (`quad`); leaves of other
+//!    primitives become nodes with one in each leaf (`spread`).
 //!
-//! Rays walk down it in one of two ways: a kernel for triangles in single precision at the best
-//! level of instructions that the machine has (`kernel`), and a plain walk for everything else (`traverse`): any primitive, and rays that are
-//! to be traced in double precision.
+//! Rays walk down it by kernels in single precision, at the best level of instructions that the
+//! machine has (`kernel`): one for triangles, one that shows a visitor any other primitive. Rays that
+//! are to be traced in double precision walk down it plainly (`traverse`).
 
 mod build;
 mod collapse;
@@ -16,6 +17,7 @@ mod kernel;
 mod near;
 mod node;
 mod quad;
+mod spread;
 mod traverse;
 
 use std::marker::PhantomData;
@@ -72,9 +74,12 @@ impl<C: Care> Bvh8<C> {
         let mut items = items;
         let binary = build::binned::build(&mut items);
         let list: Vec<u32> = items.iter().map(Item::primitive).collect();
-        drop(items);
         let mut tree = collapse::collapse(&binary);
         drop(binary);
+        if mesh.is_none() {
+            spread::spread(&mut tree, &|place| items[place].bounds());
+        }
+        drop(items);
         let leaves = match mesh {
             None => Leaves::Lists(list),
             Some(mesh) => Leaves::Quads(pack(&mut tree, &list, mesh)),

@@ -1,22 +1,33 @@
-//! The plain walk: for any primitive, and for rays in double precision.
+//! The walk that shows what is in leaves to a visitor: plain for rays that are to be traced in double
+//! precision.
 
 use std::ops::ControlFlow;
 
 use arrayvec::ArrayVec;
 
-use super::kernel::STACK;
+use super::kernel::{self, STACK};
 use super::node::{Child, WIDTH};
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
 impl Wide {
-    /// See [`Structure::traverse`](crate::Structure::traverse). Boxes are tested in double
-    /// precision, one by one, with the pad that is made for that.
+    /// See [`Structure::traverse`](crate::Structure::traverse).
+    #[inline]
     pub(super) fn traverse<V: Visitor>(
         &self,
         ray: &TraversalRay,
         visitor: &mut V,
     ) -> ControlFlow<()> {
+        if let Leaves::Lists(list) = &self.leaves
+            && let Some(ray) = kernel::ready(self.level, ray, &self.near)
+        {
+            return kernel::walk_lists(self, list, &ray, visitor);
+        }
+        self.traverse_plainly(ray, visitor)
+    }
+
+    /// The same with boxes tested in double precision, one by one, with the pad that is made for that.
+    fn traverse_plainly<V: Visitor>(&self, ray: &TraversalRay, visitor: &mut V) -> ControlFlow<()> {
         let mut waiting = ArrayVec::<(Child, f64), STACK>::new();
         waiting.push((self.tree.root, f64::NEG_INFINITY));
         let limit = |t_max: f64| t_max - ray.box_start;

@@ -165,13 +165,13 @@ impl SingleRay {
 
 /// Four numbers by their places.
 #[inline(always)]
-fn each(of: impl Fn(usize) -> f32) -> [f32; 4] {
+pub(super) fn each(of: impl Fn(usize) -> f32) -> [f32; 4] {
     [of(0), of(1), of(2), of(3)]
 }
 
 /// The largest of the first three.
 #[inline(always)]
-fn largest([x, y, z, _]: [f32; 4]) -> f32 {
+pub(super) fn largest([x, y, z, _]: [f32; 4]) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     larger(larger(x, y), z)
 }

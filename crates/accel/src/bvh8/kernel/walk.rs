@@ -246,12 +246,12 @@ unsafe fn splat<L: Lanes>(x: f32, y: f32, z: f32) -> [L; 3] {
 /// The test of eight boxes.
 #[derive(Clone, Copy)]
 pub(super) struct Slabs<L> {
-    inverse: [L; 3],
-    near: [L; 3],
-    far: [L; 3],
-    t_min: L,
-    enter: [usize; 3],
-    leave: [usize; 3],
+    pub(super) inverse: [L; 3],
+    pub(super) near: [L; 3],
+    pub(super) far: [L; 3],
+    pub(super) t_min: L,
+    pub(super) enter: [usize; 3],
+    pub(super) leave: [usize; 3],
 }
 
 impl<L: Lanes> Slabs<L> {

@@ -130,7 +130,18 @@ fn read(path: &str) -> anyhow::Result<Document> {
             document.heading.format
         );
     }
+    if document.samples.is_empty() {
+        bail!(
+            "{path}: `samples` is empty, so there is nothing to compare; it has one entry a sample"
+        );
+    }
     for sample in &document.samples {
+        if sample.rays.is_empty() {
+            bail!(
+                "{path}: sample {}: `rays` is empty; the first is the camera's",
+                sample.sample
+            );
+        }
         let mut nested: Vec<u32> = Vec::with_capacity(sample.rays.len());
         for (index, ray) in sample.rays.iter().enumerate() {
             let above = ray.parent.and_then(|parent| nested.get(parent));
