@@ -242,7 +242,9 @@ impl<P: Measured> Measured for Instances<P> {
     }
 
     fn measure(&self, primitive: u32, place: &Place<'_>, nearby: &mut Nearby) -> ControlFlow<()> {
-        let Entry { instance, shape } = self.entries[primitive as usize];
+        let Entry {
+            instance, shape, ..
+        } = self.entries[primitive as usize];
         let own = &self.instances[instance as usize];
         if !nearby.sees(own.mask) {
             return ControlFlow::Continue(());

@@ -46,7 +46,7 @@ impl BoxRay {
         let size = each(|k| direction[k].abs());
         let unit = largest(size);
         // The ray is valid. What has become infinite is not near, or too large.
-        let plain = (away <= near.limit) & (unit >= 1e-10) & (unit <= 1e10);
+        let plain = (away <= near.limit) & (1e-10..=1e10).contains(&unit);
         if !plain {
             return None;
         }
