@@ -174,7 +174,7 @@ impl<P: Primitives> Instances<P> {
         match (shape, accel.primitives().plain()) {
             (Some(shape), Some(shapes)) => shapes.test(&local, shape, &mut place),
             _ => {
-                accel.search_with(&local, rule, counter, &mut place);
+                search_below(accel, &local, rule, counter, &mut place);
                 terminated
             }
         }
@@ -189,6 +189,18 @@ impl<P: Primitives> Instances<P> {
         local.t_max = t_max;
         local
     }
+}
+
+/// A search in a geometry. It takes a stack of its own, which shapes are spared.
+#[inline(never)]
+fn search_below<P: Primitives, C: Counter>(
+    accel: &Accel<P>,
+    ray: &Ray<f64>,
+    rule: EdgeRule,
+    counter: &mut C,
+    any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
+) {
+    accel.search_with(ray, rule, counter, any_hit);
 }
 
 impl<P: Primitives> Primitives for Instances<P> {

@@ -213,7 +213,7 @@ fn a_study_that_is_stopped_keeps_what_was_measured() {
     };
     assert!(stopped_after(1).scenes.is_empty());
     // Both scenes take the same jobs.
-    let one_scene = total.get() as u64 / 2;
+    let one_scene = total.get() / 2;
     for jobs in [
         1,
         2,

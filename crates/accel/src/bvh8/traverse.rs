@@ -27,9 +27,11 @@ impl Wide {
     }
 
     /// The same with boxes tested in double precision, one by one, with the pad that is made for that.
+    #[inline(never)]
     fn traverse_plainly<V: Visitor>(&self, ray: &TraversalRay, visitor: &mut V) -> ControlFlow<()> {
         let mut waiting = ArrayVec::<(Child, f64), STACK>::new();
         waiting.push((self.tree.root, f64::NEG_INFINITY));
+        let inverse = ray.inverse_direction();
         let limit = |t_max: f64| t_max - ray.box_start;
         while let Some((child, entry)) = waiting.pop() {
             if entry > limit(visitor.t_max()) {
@@ -43,7 +45,7 @@ impl Wide {
             let node = &self.tree.nodes[child.index()];
             let mut entered = ArrayVec::<(Child, f64), WIDTH>::new();
             for (bounds, child) in node.children() {
-                if let Some([from, _]) = ray.clip(&bounds.wide(), visitor.t_max()) {
+                if let Some([from, _]) = ray.clip(inverse, &bounds.wide(), visitor.t_max()) {
                     entered.push((child, from));
                 }
             }

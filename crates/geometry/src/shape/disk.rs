@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use super::error::{ShapeError, direction, finite, positive};
-use super::frame::{Frame, disk_reach, report, turn, unit};
+use super::frame::{Frame, disk_reach, report, unit};
 use super::plane::distance_along;
+use super::turn::turn;
 use super::{Surface, SurfacePoint, SurfaceSample};
 use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 

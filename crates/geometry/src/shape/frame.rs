@@ -1,6 +1,5 @@
 //! The frame in which a shape is simple, and rays in it.
 
-use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::Surface;
@@ -136,13 +135,6 @@ pub(super) fn collected(shape: &impl Surface, ray: &Ray<f64>) -> Crossings {
         ControlFlow::Continue(())
     });
     found
-}
-
-/// The angle of (x, y) from +x towards +y as a part of a full turn, in `[0, 1]`.
-#[inline]
-pub(super) fn turn(x: f64, y: f64) -> f32 {
-    let turn = y.atan2(x) / (2.0 * PI);
-    (if turn < 0.0 { turn + 1.0 } else { turn }) as f32
 }
 
 /// A number that is in `[0, 1]` but for rounding; 0 for the 0 / 0 at the centre of nothing.

@@ -33,6 +33,7 @@ mod sphere;
 mod tessellate;
 mod torus;
 mod triangle;
+mod turn;
 
 use std::ops::ControlFlow;
 

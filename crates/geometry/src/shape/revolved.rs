@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use super::error::{ShapeError, direction, finite};
-use super::frame::{Frame, LocalRay, disk_reach, nearest_of, report, turn, unit};
+use super::frame::{Frame, LocalRay, disk_reach, nearest_of, report, unit};
 use super::interval::Interval;
+use super::turn::turn;
 use super::{Ends, Surface, SurfacePoint, SurfaceSample};
 use crate::triangle::share;
 use crate::{Aabb, Crossings, Point3, Ray, Vector3, sampling};

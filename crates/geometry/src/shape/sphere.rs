@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::error::{ShapeError, finite, positive};
-use super::frame::{collected, counts, turn, unit};
+use super::frame::{collected, counts};
+use super::turn::turn;
 use super::{Surface, SurfacePoint, SurfaceSample};
 use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 
@@ -36,8 +37,8 @@ impl Sphere {
     }
 
     fn uv(direction: Vector3<f64>) -> [f32; 2] {
-        let up = direction.z.clamp(-1.0, 1.0).asin() / PI + 0.5;
-        [turn(direction.x, direction.y), unit(up)]
+        let Vector3 { x, y, z } = direction;
+        [turn(x, y), 2.0 * turn(-z, (x * x + y * y).sqrt())]
     }
 }
 

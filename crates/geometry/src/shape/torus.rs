@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use super::error::{ShapeError, direction, finite, positive};
-use super::frame::{Frame, LocalRay, disk_reach, report, turn};
+use super::frame::{Frame, LocalRay, disk_reach, report};
 use super::interval::Interval;
+use super::turn::turn;
 use super::{Surface, SurfacePoint, SurfaceSample};
 use crate::polynomial::{bracketed_root, turning_points};
 use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3};
