@@ -9,6 +9,7 @@ mod model;
 mod number;
 mod part;
 mod path;
+mod reading;
 mod side;
 mod solid;
 mod text;
