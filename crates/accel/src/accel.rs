@@ -3,7 +3,7 @@
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 use rayon::prelude::*;
 
-use crate::bvh8::{Bvh8, Item, Level};
+use crate::bvh8::{Bvh8, Items, Level};
 use crate::search::Search;
 use crate::{
     AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, Statistics,
@@ -29,6 +29,36 @@ impl<P: Primitives> Accel<P> {
     #[must_use]
     pub fn build(primitives: P, kind: StructureKind) -> Self {
         let count = u32::try_from(primitives.len()).expect("ids of primitives have 32 bits");
+        let (structure, unbounded, mut bounds) = match kind {
+            StructureKind::Bvh8 => {
+                let mut items = Items::of(&primitives);
+                let unbounded = std::mem::take(&mut items.unbounded);
+                let bounds = items.bounds.bounds();
+                let bvh = Bvh8::new(items, &Reach::of(&bounds), primitives.watertight());
+                (AnyStructure::Bvh8(bvh), unbounded, bounds)
+            }
+            _ => Self::build_plain(&primitives, count, kind),
+        };
+        let reach = Reach::of(&bounds);
+        if !unbounded.is_empty() {
+            bounds = Aabb::UNBOUNDED;
+        }
+        Self {
+            primitives,
+            structure,
+            unbounded,
+            reach,
+            bounds,
+        }
+    }
+
+    /// Builds a structure of a kind that sees nothing but boxes; and those primitives that it leaves
+    /// out since they have no end, and the box around the others.
+    fn build_plain(
+        primitives: &P,
+        count: u32,
+        kind: StructureKind,
+    ) -> (AnyStructure, Vec<u32>, Aabb) {
         let mut unbounded = Vec::new();
         let mut bounds = Aabb::EMPTY;
         let mut bounded: Vec<_> = (0..count)
@@ -50,25 +80,8 @@ impl<P: Primitives> Accel<P> {
             }
             finite
         });
-        let reach = Reach::of(&bounds);
-        let structure = match kind {
-            StructureKind::Bvh8 => {
-                let item = |own: &Bounded| Item::new(&own.bounds, own.primitive);
-                let items = bounded.iter().map(item).collect();
-                AnyStructure::Bvh8(Bvh8::new(items, &reach, primitives.watertight()))
-            }
-            _ => kind.build(&bounded, &reach),
-        };
-        if !unbounded.is_empty() {
-            bounds = Aabb::UNBOUNDED;
-        }
-        Self {
-            primitives,
-            structure,
-            unbounded,
-            reach,
-            bounds,
-        }
+        let structure = kind.build(&bounded, &Reach::of(&bounds));
+        (structure, unbounded, bounds)
     }
 
     /// The primitives.

@@ -1,21 +1,20 @@
 //! The wide bounding volume hierarchy: eight boxes a node, eight triangles a leaf, tested at once.
 //!
 //! Made in steps, each a value of its own:
-//! 1. a builder cuts the list of primitives in two again and again, down to lists of at most eight
-//!    (`build`);
-//! 2. nodes take in what is below them until they have eight children (`collapse`, `node`);
-//! 3. if the primitives are triangles they are copied into the leaves (`quad`).
+//! 1. a builder cuts the list of primitives in up to eight again and again, down to lists of at most
+//!    eight (`build`);
+//! 2. if the primitives are triangles they are copied into the leaves (`quad`).
 //!
 //! Rays walk down it in one of two ways: a kernel for triangles in single precision at the best
 //! level of instructions that the machine has (`kernel`), and a plain walk for everything else (`traverse`): any primitive, and rays that are
 //! to be traced in double precision.
 
 mod build;
-mod collapse;
 mod kernel;
 mod node;
 mod quad;
 mod traverse;
+mod wide;
 
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -23,11 +22,10 @@ use std::ops::ControlFlow;
 use ombra_geometry::{EdgeRule, Hit, Ray, TriangleMesh};
 
 use crate::{AnyHit, Bounded, Candidate, Counter, Reach, Structure, TraversalRay, Visitor};
-pub(crate) use build::item::Item;
-use collapse::WideTree;
+pub(crate) use build::items::Items;
 use kernel::{Found, Near, SingleRay, Tree};
-use node::Child;
 use quad::Quad;
+use wide::WideTree;
 
 pub use kernel::Level;
 
@@ -66,16 +64,11 @@ enum Leaves {
 
 impl<C: Care> Bvh8<C> {
     /// Builds one over boxes that are finite and not empty; over triangles if there is a mesh.
-    pub(crate) fn new(items: Vec<Item>, reach: &Reach, mesh: Option<&TriangleMesh>) -> Self {
-        let mut items = items;
-        let binary = build::binned::build(&mut items);
-        let list: Vec<u32> = items.iter().map(Item::primitive).collect();
-        drop(items);
-        let mut tree = collapse::collapse(&binary);
-        drop(binary);
+    pub(crate) fn new(items: Items, reach: &Reach, mesh: Option<&TriangleMesh>) -> Self {
+        let (mut tree, list) = build::binned::build(items);
         let leaves = match mesh {
             None => Leaves::Lists(list),
-            Some(mesh) => Leaves::Quads(pack(&mut tree, &list, mesh)),
+            Some(mesh) => Leaves::Quads(build::pack::pack(&mut tree, &list, mesh)),
         };
         Self {
             tree: Wide {
@@ -89,28 +82,9 @@ impl<C: Care> Bvh8<C> {
     }
 }
 
-/// Copies triangles into leaves.
-fn pack(tree: &mut WideTree, list: &[u32], mesh: &TriangleMesh) -> Vec<Quad> {
-    let mut quads = Vec::with_capacity(list.len() / 3 + 2);
-    let mut packed = |child: &mut Child| {
-        if child.is_leaf() {
-            let first = quads.len();
-            let eight = Quad::lay(&mut quads, mesh, &list[child.range()]);
-            *child = Child::triangles(first, eight);
-        }
-    };
-    packed(&mut tree.root);
-    tree.nodes
-        .iter_mut()
-        .flat_map(|node| &mut node.child)
-        .for_each(packed);
-    quads
-}
-
 impl<C: Care> Structure for Bvh8<C> {
     fn build(primitives: &[Bounded], reach: &Reach) -> Self {
-        let item = |own: &Bounded| Item::new(&own.bounds, own.primitive);
-        Self::new(primitives.iter().map(item).collect(), reach, None)
+        Self::new(Items::bounded(primitives), reach, None)
     }
 
     #[inline]
