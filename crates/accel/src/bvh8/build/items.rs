@@ -43,7 +43,7 @@ impl Items {
     }
 
     fn each(count: usize, of: &(impl Fn(usize) -> (Aabb, u32) + Sync)) -> Self {
-        let mut list = zeroed_items(count).into_vec();
+        let mut list = zeroed_items(count);
         let tasks: Vec<Task> = list
             .par_chunks_mut(TASK)
             .enumerate()

@@ -1,6 +1,7 @@
 //! From a list of boxes to a tree.
 
 pub(crate) mod binned;
+mod collapse;
 pub(crate) mod item;
 pub(crate) mod items;
 mod lanes;

@@ -4,12 +4,13 @@
 //! All levels do the same operations in the same order on every number, so they make the same tree.
 #![expect(
     unsafe_code,
-    reason = "vector instructions, and memory that begins as zeros without a pass to write them"
+    reason = "vector instructions, and memory that begins as zeros"
 )]
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 mod bins;
+mod memory;
 mod portable;
 
 use super::item::Item;
@@ -102,14 +103,14 @@ fn has_avx2() -> bool {
         && std::is_x86_feature_detected!("popcnt")
 }
 
-/// So many items, all zeros. The memory comes from the system as it is: no pass writes it.
-pub(crate) fn zeroed_items(count: usize) -> Box<[Item]> {
+/// So many items, all zeros.
+pub(crate) fn zeroed_items(count: usize) -> Vec<Item> {
     // SAFETY: an item is eight singles, and a single may be zero.
-    unsafe { Box::new_zeroed_slice(count).assume_init() }
+    unsafe { memory::zeroed(count) }
 }
 
-/// So many quads, all zeros, in the same way.
+/// So many quads, all zeros.
 pub(crate) fn zeroed_quads(count: usize) -> Vec<super::super::Quad> {
     // SAFETY: a quad is forty singles.
-    unsafe { Box::new_zeroed_slice(count).assume_init() }.into_vec()
+    unsafe { memory::zeroed(count) }
 }
