@@ -1,9 +1,9 @@
 //! A structure over primitives: what answers queries.
 
-use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
+use ombra_geometry::{Aabb, EdgeRule, Hit, Ray, TriangleMesh};
 use rayon::prelude::*;
 
-use crate::bvh8::{Bvh8, Items, Level};
+use crate::bvh8::{Bvh8, Items, Level, Shown, Wide};
 use crate::search::Search;
 use crate::{
     AnyHit, AnyStructure, Bounded, Candidate, Counter, Primitives, Reach, Span, Statistics,
@@ -29,14 +29,16 @@ impl<P: Primitives> Accel<P> {
     #[must_use]
     pub fn build(primitives: P, kind: StructureKind) -> Self {
         let count = u32::try_from(primitives.len()).expect("ids of primitives have 32 bits");
+        let wide = |build: fn(Items, &Reach, Option<&TriangleMesh>) -> AnyStructure| {
+            let mut items = Items::of(&primitives);
+            let unbounded = std::mem::take(&mut items.unbounded);
+            let bounds = items.bounds.bounds();
+            let structure = build(items, &Reach::of(&bounds), primitives.watertight());
+            (structure, unbounded, bounds)
+        };
         let (structure, unbounded, mut bounds) = match kind {
-            StructureKind::Bvh8 => {
-                let mut items = Items::of(&primitives);
-                let unbounded = std::mem::take(&mut items.unbounded);
-                let bounds = items.bounds.bounds();
-                let bvh = Bvh8::new(items, &Reach::of(&bounds), primitives.watertight());
-                (AnyStructure::Bvh8(bvh), unbounded, bounds)
-            }
+            StructureKind::Bvh8 => wide(|i, r, m| AnyStructure::Bvh8(Bvh8::new(i, r, m))),
+            StructureKind::Bvh8High => wide(|i, r, m| AnyStructure::Bvh8High(Bvh8::new(i, r, m))),
             _ => Self::build_plain(&primitives, count, kind),
         };
         let reach = Reach::of(&bounds);
@@ -101,8 +103,8 @@ impl<P: Primitives> Accel<P> {
             Level::available().contains(&level),
             "this machine does not have the level {level:?}"
         );
-        if let AnyStructure::Bvh8(bvh) = &mut self.structure {
-            bvh.tree.level = level;
+        if let Some(tree) = self.structure.wide_mut() {
+            tree.level = level;
         }
         self
     }
@@ -124,15 +126,31 @@ impl<P: Primitives> Accel<P> {
         any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
     ) -> Option<Candidate> {
         let ray = TraversalRay::new(ray, &self.reach)?;
-        if let AnyStructure::Bvh8(bvh) = &self.structure
-            && let Some(found) = bvh.tree.search(&ray, rule, counter, any_hit)
+        if self.structure.wide().is_some_and(Wide::repeats) {
+            let mut shown = Shown::default();
+            let mut any_hit = |candidate: &Candidate| shown.ask(candidate, any_hit);
+            return self.search_ready(&ray, rule, counter, &mut any_hit);
+        }
+        self.search_ready(&ray, rule, counter, any_hit)
+    }
+
+    /// The same for a ray made ready, where `any_hit` may be asked about a triangle more than once.
+    fn search_ready<C: Counter>(
+        &self,
+        ray: &TraversalRay,
+        rule: EdgeRule,
+        counter: &mut C,
+        any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
+    ) -> Option<Candidate> {
+        if let Some(tree) = self.structure.wide()
+            && let Some(found) = tree.search(ray, rule, counter, any_hit)
         {
             return found;
         }
-        let mut search = Search::new(&self.primitives, &ray, rule, counter, any_hit);
+        let mut search = Search::new(&self.primitives, ray, rule, counter, any_hit);
         if search.leaf(&self.unbounded, Span::ALL).is_continue() {
             // Broken off or not, what was accepted is in the search.
-            let _ = self.structure.traverse(&ray, &mut search);
+            let _ = self.structure.traverse(ray, &mut search);
         }
         search.best()
     }
@@ -153,8 +171,8 @@ impl<P: Primitives> Traversable for Accel<P> {
     }
 
     fn intersect(&self, ray: &Ray<f32>) -> Option<Hit> {
-        if let AnyStructure::Bvh8(bvh) = &self.structure
-            && let Some(closest) = bvh.tree.closest(ray)
+        if let Some(tree) = self.structure.wide()
+            && let Some(closest) = tree.closest(ray)
         {
             return closest.map(|candidate| candidate.hit());
         }
@@ -164,8 +182,8 @@ impl<P: Primitives> Traversable for Accel<P> {
     }
 
     fn occluded(&self, ray: &Ray<f32>) -> bool {
-        if let AnyStructure::Bvh8(bvh) = &self.structure
-            && let Some(occluded) = bvh.tree.any(ray)
+        if let Some(tree) = self.structure.wide()
+            && let Some(occluded) = tree.any(ray)
         {
             return occluded;
         }
@@ -177,10 +195,8 @@ impl<P: Primitives> Traversable for Accel<P> {
     fn intersect_many(&self, rays: &[Ray<f32>], hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "one place for a hit for each ray");
         let mut slow = Vec::new();
-        if let AnyStructure::Bvh8(bvh) = &self.structure
-            && bvh
-                .tree
-                .closest_many(rays, hits, &mut |index| slow.push(index))
+        if let Some(tree) = self.structure.wide()
+            && tree.closest_many(rays, hits, &mut |index| slow.push(index))
         {
             for index in slow {
                 hits[index] = self.intersect(&rays[index]);
@@ -195,10 +211,8 @@ impl<P: Primitives> Traversable for Accel<P> {
     fn occluded_many(&self, rays: &[Ray<f32>], occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len(), "one answer for each ray");
         let mut slow = Vec::new();
-        if let AnyStructure::Bvh8(bvh) = &self.structure
-            && bvh
-                .tree
-                .any_many(rays, occluded, &mut |index| slow.push(index))
+        if let Some(tree) = self.structure.wide()
+            && tree.any_many(rays, occluded, &mut |index| slow.push(index))
         {
             for index in slow {
                 occluded[index] = self.occluded(&rays[index]);

@@ -13,6 +13,7 @@ mod build;
 mod kernel;
 mod node;
 mod quad;
+mod shown;
 mod traverse;
 mod wide;
 
@@ -25,17 +26,43 @@ use crate::{AnyHit, Bounded, Candidate, Counter, Reach, Structure, TraversalRay,
 pub(crate) use build::items::Items;
 use kernel::{Found, Near, SingleRay, Tree};
 use quad::Quad;
+pub(crate) use shown::Shown;
 use wide::WideTree;
 
 pub use kernel::Level;
 
 /// How much care a builder takes.
-pub trait Care: Clone + std::fmt::Debug + Send + Sync + 'static {}
+pub trait Care: Clone + std::fmt::Debug + Send + Sync + 'static {
+    /// How much.
+    const EFFORT: Effort;
+}
+
+/// How much time a builder takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// As little as it can.
+    Least,
+    /// A little more.
+    Usual,
+    /// As much as makes rays quicker.
+    Most,
+}
 
 /// Cuts by the surface area heuristic.
 #[derive(Clone, Copy, Debug)]
 pub enum Balanced {}
-impl Care for Balanced {}
+impl Care for Balanced {
+    const EFFORT: Effort = Effort::Usual;
+}
+
+/// Cuts by the surface area heuristic, of the list or of space, whichever is cheaper: where large
+/// triangles lie beside small ones, as in rooms, rays visit fewer nodes. Triangles are listed half as
+/// often again at most.
+#[derive(Clone, Copy, Debug)]
+pub enum High {}
+impl Care for High {
+    const EFFORT: Effort = Effort::Most;
+}
 
 /// A wide bounding volume hierarchy, built with the care `C`.
 #[derive(Clone, Debug)]
@@ -50,6 +77,8 @@ pub(crate) struct Wide {
     tree: WideTree,
     leaves: Leaves,
     near: Near,
+    /// Whether some triangles are in several leaves.
+    repeats: bool,
     pub(crate) level: Level,
 }
 
@@ -65,7 +94,12 @@ enum Leaves {
 impl<C: Care> Bvh8<C> {
     /// Builds one over boxes that are finite and not empty; over triangles if there is a mesh.
     pub(crate) fn new(items: Items, reach: &Reach, mesh: Option<&TriangleMesh>) -> Self {
-        let (mut tree, list) = build::binned::build(items);
+        let count = items.list.len();
+        let (mut tree, list) = match C::EFFORT {
+            Effort::Least | Effort::Usual => build::binned::build(items),
+            Effort::Most => build::spatial::build(items, mesh),
+        };
+        let repeats = list.len() > count;
         let leaves = match mesh {
             None => Leaves::Lists(list),
             Some(mesh) => Leaves::Quads(build::pack::pack(&mut tree, &list, mesh)),
@@ -75,6 +109,7 @@ impl<C: Care> Bvh8<C> {
                 tree,
                 leaves,
                 near: Near::new(reach),
+                repeats,
                 level: Level::detect(),
             },
             care: PhantomData,
@@ -102,6 +137,11 @@ impl<C: Care> Structure for Bvh8<C> {
 }
 
 impl Wide {
+    /// Whether a search may come upon the same triangle more than once.
+    pub(crate) const fn repeats(&self) -> bool {
+        self.repeats
+    }
+
     /// The parts that the kernels need, if leaves hold triangles.
     #[inline(always)]
     fn triangles(&self) -> Option<Tree<'_>> {

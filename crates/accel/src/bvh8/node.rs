@@ -66,10 +66,12 @@ impl Child {
         Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | 5 * quad as u32)
     }
 
-    /// The same where so many nodes come before those that it counts.
-    pub(crate) fn moved(self, nodes: usize) -> Self {
+    /// The same, not of triangles, where so many nodes and so many primitives come before those
+    /// that it counts.
+    pub(crate) fn moved(self, [nodes, primitives]: [usize; 2]) -> Self {
         if self.is_leaf() {
-            self
+            let std::ops::Range { start, end } = self.range();
+            Self::list(start + primitives, end - start)
         } else {
             Self::node(self.index() + nodes)
         }

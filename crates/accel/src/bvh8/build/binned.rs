@@ -14,31 +14,24 @@
 //! 5. Boxes and counts of bins do not depend on the order of the list, and where a list is cut in
 //!    tasks does not depend on the number of threads: the tree is the same for any.
 
-use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::super::kernel::MAX_DEPTH;
-use super::super::node::{Child, MAX_LEAF, Node, WIDTH};
+use super::super::node::MAX_LEAF;
 use super::super::wide::WideTree;
-use super::collapse::Binary;
+use super::grow::{self, Part, TASK};
 use super::item::Item;
 use super::items::Items;
 use super::lanes::{self, Binning, Bins, Cut};
 
-/// Lists shorter than this are one task.
-const PARALLEL: usize = 1 << 13;
-/// Longer ones than this are cut by several.
-const CUT_PARALLEL: usize = 8 * PARALLEL;
+/// Longer lists than this are cut by several tasks.
+const CUT_PARALLEL: usize = 8 * TASK;
 
 /// A list with the box around its primitives and the one around their centres.
 struct List<'a> {
     items: &'a mut [Item],
     /// As much room again.
     room: &'a mut [Item],
-    /// Where the numbers of the primitives go when it is a leaf.
-    numbers: &'a mut [u32],
-    /// Where it begins in the whole list.
-    first: usize,
     bounds: Item,
     centres: Item,
     /// How often the whole list was cut to make this one.
@@ -48,121 +41,34 @@ struct List<'a> {
 /// Builds the tree, and the list of primitives that its leaves name.
 pub(crate) fn build(items: Items) -> (WideTree, Vec<u32>) {
     let mut list = items.list;
-    let mut numbers = vec![0; list.len()];
-    if list.is_empty() {
-        return (WideTree::nothing(), numbers);
-    }
     let mut room = lanes::zeroed_items(list.len());
-    let mut grown = Grown::default();
-    let root = grown.grow(
-        List {
-            items: &mut list,
-            room: &mut room,
-            numbers: &mut numbers,
-            first: 0,
-            bounds: items.bounds,
-            centres: items.centres,
-            cuts: 0,
-        },
-        1,
-    );
-    let tree = WideTree {
-        root,
-        nodes: grown.nodes,
-        depth: grown.depth.max(1),
-    };
-    (tree, numbers)
+    grow::grow(List {
+        items: &mut list,
+        room: &mut room,
+        bounds: items.bounds,
+        centres: items.centres,
+        cuts: 0,
+    })
 }
 
-/// What is made so far.
-#[derive(Default)]
-struct Grown {
-    nodes: Vec<Node>,
-    depth: usize,
-}
+impl Part for List<'_> {
+    const SHORTEST: usize = MAX_LEAF;
 
-impl Grown {
-    /// Appends the tree over a list; its node would lie at a depth.
-    ///
-    /// Everywhere cuts + ⌈log₂ items⌉ ≤ [`MAX_DEPTH`]: any cut keeps that below the limit, halving
-    /// keeps it at the limit.
-    fn grow(&mut self, mut list: List<'_>, depth: usize) -> Child {
-        let count = list.items.len();
-        if count <= MAX_LEAF {
-            list.write();
-            return Child::list(list.first, count);
-        }
-        if count < PARALLEL {
-            let mut binary = Binary::default();
-            let root = halves(list, &mut binary);
-            return binary.lay(root, depth, &mut self.nodes, &mut self.depth);
-        }
-        self.depth = self.depth.max(depth);
-        let lists = eight(list);
-        let place = self.nodes.len();
-        let mut node = Node::EMPTY;
-        for (k, list) in lists.iter().enumerate() {
-            node.set(k, &list.bounds.bounds(), Child::NONE);
-        }
-        node.sort();
-        self.nodes.push(node);
-        let grown = |list: List<'_>| {
-            let mut grown = Self::default();
-            let root = grown.grow(list, depth + 1);
-            (root, grown)
-        };
-        let branches: Vec<(Child, Self)> =
-            Vec::from_iter(lists).into_par_iter().map(grown).collect();
-        let more = branches.iter().map(|(_, branch)| branch.nodes.len()).sum();
-        self.nodes.reserve_exact(more);
-        for (k, (root, branch)) in branches.into_iter().enumerate() {
-            let base = self.nodes.len();
-            self.nodes[place].child[k] = root.moved(base);
-            self.nodes.extend(branch.nodes.into_iter().map(|mut node| {
-                node.child = node.child.map(|child| child.moved(base));
-                node
-            }));
-            self.depth = self.depth.max(branch.depth);
-        }
-        Child::node(place)
+    fn count(&self) -> usize {
+        self.items.len()
     }
-}
 
-/// Cuts a list in two again and again, and adds what it becomes to a binary tree.
-fn halves(mut list: List<'_>, binary: &mut Binary) -> usize {
-    let (bounds, first, count) = (list.bounds, list.first, list.items.len());
-    if count <= MAX_LEAF {
-        list.write();
-        return binary.leaf(&bounds, first, count);
+    fn bounds(&self) -> &Item {
+        &self.bounds
     }
-    let children = cut(list).map(|list| halves(list, binary));
-    binary.join(&bounds, children)
-}
 
-/// Cuts a list that is no leaf in up to eight.
-fn eight(list: List<'_>) -> ArrayVec<List<'_>, WIDTH> {
-    let mut lists = ArrayVec::new();
-    // Of lists that are leaves, less than that of any other.
-    let mut areas = ArrayVec::<f32, WIDTH>::new();
-    let area = |list: &List<'_>| match list.items.len() {
-        ..=MAX_LEAF => -1.0,
-        _ => list.bounds.half_area(),
-    };
-    areas.push(area(&list));
-    lists.push(list);
-    while !lists.is_full() {
-        let k = (1..lists.len()).fold(0, |a, b| if areas[b] > areas[a] { b } else { a });
-        if areas[k] < 0.0 {
-            break;
-        }
-        let [left, right] = cut(lists.swap_remove(k));
-        areas.swap_remove(k);
-        for list in [left, right] {
-            areas.push(area(&list));
-            lists.push(list);
-        }
+    fn cut(self) -> [Self; 2] {
+        cut(self)
     }
-    lists
+
+    fn write(&self, numbers: &mut Vec<u32>) {
+        numbers.extend(self.items.iter().map(Item::primitive));
+    }
 }
 
 /// Cuts a list in two, neither empty.
@@ -189,7 +95,7 @@ fn cut(list: List<'_>) -> [List<'_>; 2] {
 fn cut_by_many<'a>(list: List<'a>, binning: &Binning) -> [List<'a>; 2] {
     let bins: Vec<Bins> = list
         .items
-        .par_chunks(PARALLEL)
+        .par_chunks(TASK)
         .map(|items| lanes::filled(items, binning))
         .collect();
     let mut all = bins[0].clone();
@@ -199,7 +105,7 @@ fn cut_by_many<'a>(list: List<'a>, binning: &Binning) -> [List<'a>; 2] {
     };
     let (mut left, mut right) = list.room.split_at_mut(cut.left);
     let mut tasks: Vec<(&[Item], &mut [Item], &mut [Item])> = Vec::with_capacity(bins.len());
-    for (items, bins) in list.items.chunks(PARALLEL).zip(&bins) {
+    for (items, bins) in list.items.chunks(TASK).zip(&bins) {
         let count = bins.left_of(&cut);
         let (low, high);
         (low, left) = left.split_at_mut(count);
@@ -242,13 +148,6 @@ fn halve(list: List<'_>) -> [List<'_>; 2] {
 }
 
 impl<'a> List<'a> {
-    /// Writes the numbers of its primitives.
-    fn write(&mut self) {
-        for (number, item) in self.numbers.iter_mut().zip(&*self.items) {
-            *number = item.primitive();
-        }
-    }
-
     /// Both sides, after items were copied to the room.
     fn moved_to_room(self, at: usize, bounds: [Item; 2], centres: [Item; 2]) -> [List<'a>; 2] {
         let moved = Self {
@@ -262,14 +161,11 @@ impl<'a> List<'a> {
     fn split(self, at: usize, bounds: [Item; 2], centres: [Item; 2]) -> [List<'a>; 2] {
         let items = self.items.split_at_mut(at);
         let room = self.room.split_at_mut(at);
-        let numbers = self.numbers.split_at_mut(at);
         let cuts = self.cuts + 1;
         [
             List {
                 items: items.0,
                 room: room.0,
-                numbers: numbers.0,
-                first: self.first,
                 bounds: bounds[0],
                 centres: centres[0],
                 cuts,
@@ -277,8 +173,6 @@ impl<'a> List<'a> {
             List {
                 items: items.1,
                 room: room.1,
-                numbers: numbers.1,
-                first: self.first + at,
                 bounds: bounds[1],
                 centres: centres[1],
                 cuts,

@@ -68,6 +68,7 @@ pub(in super::super) struct Cut {
     /// The boxes around both sides, and how many primitives the left one has.
     pub(in super::super) bounds: [Item; 2],
     pub(in super::super) left: usize,
+    pub(in super::super) cost: f32,
 }
 
 /// The bins of three axes.
@@ -147,7 +148,7 @@ unsafe fn put<E: Eight>(bins: &mut Bins, item: &Item, binning: &Binning) {
 }
 
 /// Below this many primitives sides count in leaves and in quads.
-const FEW_LEAVES: u32 = 64;
+pub(in super::super) const FEW_LEAVES: usize = 64;
 
 /// What a side costs, but for the area of its box. A leaf costs about the same whether it holds one
 /// primitive or eight, and its memory comes in fours. So what is near the leaves counts in leaves and
@@ -155,7 +156,7 @@ const FEW_LEAVES: u32 = 64;
 /// quicker by 5 % on a dragon of 871 000 triangles, by 1 % in a hall; leaves alone, or fours alone,
 /// make them less so. Far above the leaves rounding tells nothing (Zen 5, November 2026).
 #[inline(always)]
-fn weight(count: u32, few: bool) -> f32 {
+pub(in super::super) fn weight(count: u32, few: bool) -> f32 {
     if few {
         (2 * count.div_ceil(8) + count.div_ceil(4)) as f32
     } else {
@@ -167,7 +168,7 @@ fn weight(count: u32, few: bool) -> f32 {
 #[inline(always)]
 pub(super) unsafe fn best<E: Eight>(bins: &Bins, binning: &Binning) -> Option<Cut> {
     let last = binning.count;
-    let few = bins.counts[0].iter().sum::<u32>() < FEW_LEAVES;
+    let few = (bins.counts[0].iter().sum::<u32>() as usize) < FEW_LEAVES;
     let mut best_cost = f32::INFINITY;
     let mut best = None;
     // SAFETY: the caller's promise.
@@ -208,6 +209,7 @@ pub(super) unsafe fn best<E: Eight>(bins: &Bins, binning: &Binning) -> Option<Cu
             binning: *binning,
             bounds,
             left: count as usize,
+            cost: best_cost,
         })
     }
 }

@@ -14,7 +14,7 @@ mod memory;
 mod portable;
 
 use super::item::Item;
-pub(super) use bins::{Binning, Bins, Cut};
+pub(super) use bins::{Binning, Bins, Cut, FEW_LEAVES, weight};
 use bins::{Sides, best, fill, part};
 
 /// The eight numbers of an [`Item`].
