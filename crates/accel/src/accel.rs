@@ -13,12 +13,12 @@ use crate::{
 /// Primitives with a structure over them.
 #[derive(Clone, Debug)]
 pub struct Accel<P> {
-    primitives: P,
-    structure: AnyStructure,
+    pub(crate) primitives: P,
+    pub(crate) structure: AnyStructure,
     /// Endless primitives: they have no place in any structure and are tested for every ray.
-    unbounded: Vec<u32>,
-    reach: Reach,
-    bounds: Aabb,
+    pub(crate) unbounded: Vec<u32>,
+    pub(crate) reach: Reach,
+    pub(crate) bounds: Aabb,
 }
 
 impl<P: Primitives> Accel<P> {
@@ -38,6 +38,7 @@ impl<P: Primitives> Accel<P> {
         };
         let (structure, unbounded, mut bounds) = match kind {
             StructureKind::Bvh8 => wide(|i, r, m| AnyStructure::Bvh8(Bvh8::new(i, r, m))),
+            StructureKind::Bvh8Fast => wide(|i, r, m| AnyStructure::Bvh8Fast(Bvh8::new(i, r, m))),
             StructureKind::Bvh8High => wide(|i, r, m| AnyStructure::Bvh8High(Bvh8::new(i, r, m))),
             _ => Self::build_plain(&primitives, count, kind),
         };

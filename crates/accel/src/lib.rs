@@ -45,6 +45,7 @@ mod lattice;
 mod octree;
 mod partition;
 mod primitives;
+mod refit;
 mod search;
 mod statistics;
 mod structure;

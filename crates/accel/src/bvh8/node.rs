@@ -63,7 +63,7 @@ impl Child {
     /// A leaf of triangles.
     pub(crate) fn triangles(quad: usize, eight: bool) -> Self {
         debug_assert!(quad < (1 << 30) / 5, "a quad is found with 30 bits");
-        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | 5 * quad as u32)
+        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | (5 * quad as u32))
     }
 
     /// The same, not of triangles, where so many nodes and so many primitives come before those
@@ -139,6 +139,15 @@ impl Node {
             self.upper[axis][child] = max[axis];
         }
         self.child[child] = what;
+    }
+
+    /// Makes room for what comes before children, none of them triangles (see [`Child::moved`]).
+    pub(crate) fn move_children(&mut self, before: [usize; 2]) {
+        for (child, lower) in self.child.iter_mut().zip(self.lower[0]) {
+            if lower < f32::INFINITY {
+                *child = child.moved(before);
+            }
+        }
     }
 
     /// The children that are there.

@@ -1,6 +1,9 @@
 //! The triangles of leaves, side by side as the kernel wants them.
 
+use arrayvec::ArrayVec;
 use ombra_geometry::{Point3, TriangleMesh};
+
+use super::node::MAX_LEAF;
 
 /// Four triangles, component by component: `numbers[4 c + k]` is component `c` of triangle `k`.
 /// Components 0 to 8 are the three corners' x, y and z, component 9 is the number of the triangle
@@ -20,6 +23,16 @@ impl Quad {
     /// Components of a triangle.
     pub(crate) const COMPONENTS: usize = 10;
     const NUMBERS: usize = 4 * Self::COMPONENTS;
+
+    /// The numbers of a leaf's triangles.
+    pub(crate) fn triangles(quads: &[Self]) -> ArrayVec<u32, MAX_LEAF> {
+        let places = 4 * quads.len();
+        let number = |k: usize| {
+            let at = (Self::COMPONENTS - 1) * places + k;
+            quads[at / Self::NUMBERS].numbers[at % Self::NUMBERS].to_bits()
+        };
+        (0..places).map(number).filter(|&n| n != u32::MAX).collect()
+    }
 
     /// Fills the quads of a leaf: one of up to four triangles, two of up to eight.
     pub(crate) fn lay(quads: &mut [Self], mesh: &TriangleMesh, triangles: &[u32]) {

@@ -6,6 +6,7 @@ use arrayvec::ArrayVec;
 
 use super::kernel::STACK;
 use super::node::{Child, WIDTH};
+use super::quad::Quad;
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
@@ -46,15 +47,8 @@ impl Wide {
         match &self.leaves {
             Leaves::Lists(list) => visitor.leaf(&list[leaf.range()], Span::ALL),
             Leaves::Quads(quads) => {
-                let places = leaf.places();
-                let numbers = |k: usize| {
-                    let at = 9 * places + k;
-                    quads[leaf.quad() + at / 40].numbers[at % 40].to_bits()
-                };
-                let list: ArrayVec<u32, WIDTH> = (0..places)
-                    .map(numbers)
-                    .filter(|&n| n != u32::MAX)
-                    .collect();
+                let quads = &quads[leaf.quad()..leaf.quad() + leaf.places() / 4];
+                let list = Quad::triangles(quads);
                 visitor.leaf(&list, Span::ALL)
             }
         }

@@ -14,9 +14,11 @@ pub(crate) struct WideTree {
 impl WideTree {
     /// Over no primitives.
     pub(crate) fn nothing() -> Self {
+        let mut node = Node::EMPTY;
+        node.sort();
         Self {
             root: Child::node(0),
-            nodes: vec![Node::EMPTY],
+            nodes: vec![node],
             depth: 1,
         }
     }

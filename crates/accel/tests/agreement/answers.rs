@@ -91,7 +91,11 @@ impl Answers {
 }
 
 /// What is traced by kernels.
-const WIDE: [StructureKind; 2] = [StructureKind::Bvh8, StructureKind::Bvh8High];
+const WIDE: [StructureKind; 3] = [
+    StructureKind::Bvh8,
+    StructureKind::Bvh8Fast,
+    StructureKind::Bvh8High,
+];
 
 /// Holds every structure over the primitives, at every level of instructions, against brute force.
 /// Returns how many hits there were.

@@ -11,6 +11,7 @@ mod numbers;
 mod proptests;
 mod rays;
 mod real_meshes;
+mod refit;
 mod statistics;
 mod watertight;
 

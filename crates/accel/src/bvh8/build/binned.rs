@@ -58,8 +58,12 @@ impl Part for List<'_> {
         self.items.len()
     }
 
-    fn bounds(&self) -> &Item {
-        &self.bounds
+    fn bounds(&self) -> Item {
+        self.bounds
+    }
+
+    fn size(&self) -> f32 {
+        self.bounds.half_area()
     }
 
     fn cut(self) -> [Self; 2] {

@@ -7,8 +7,8 @@
 
 use super::item::Item;
 
-/// The corners of a triangle.
-pub(super) type Triangle = [[f64; 3]; 3];
+/// The corners of a triangle; the fourth numbers are 0.
+pub(super) type Triangle = [[f64; 4]; 3];
 
 /// What of a triangle lies within the box of an item, below and above a plane across an axis. `None`
 /// where there is nothing for sure.
@@ -34,13 +34,23 @@ pub(super) fn split(
     }
 }
 
-/// The boxes of both parts of a triangle, in double precision: lower corner, upper corner.
-fn sides(triangle: &Triangle, axis: usize, plane: f64) -> [[[f64; 3]; 2]; 2] {
-    let mut sides = [[[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]; 2];
-    let mut add = |side: usize, point: &[f64; 3]| {
-        for k in 0..3 {
-            sides[side][0][k] = sides[side][0][k].min(point[k]);
-            sides[side][1][k] = sides[side][1][k].max(point[k]);
+/// The boxes of both parts of a triangle, in double precision: lower corner, upper corner. The
+/// fourth numbers mean nothing; with them two instructions do.
+fn sides(triangle: &Triangle, axis: usize, plane: f64) -> [[[f64; 4]; 2]; 2] {
+    let mut sides = [[[f64::INFINITY; 4], [f64::NEG_INFINITY; 4]]; 2];
+    let mut add = |side: usize, point: &[f64; 4]| {
+        let [lower, upper] = &mut sides[side];
+        for k in 0..4 {
+            lower[k] = if point[k] < lower[k] {
+                point[k]
+            } else {
+                lower[k]
+            };
+            upper[k] = if point[k] > upper[k] {
+                point[k]
+            } else {
+                upper[k]
+            };
         }
     };
     for corner in 0..3 {
@@ -51,11 +61,11 @@ fn sides(triangle: &Triangle, axis: usize, plane: f64) -> [[[f64; 3]; 2]; 2] {
         if a[axis] >= plane {
             add(1, a);
         }
-        if (a[axis] < plane) != (b[axis] < plane) && a[axis] != plane && b[axis] != plane {
+        if (a[axis] < plane && b[axis] > plane) || (a[axis] > plane && b[axis] < plane) {
             // From the same end whichever way the edge is walked.
             let (a, b) = if a[axis] < b[axis] { (a, b) } else { (b, a) };
             let part = (plane - a[axis]) / (b[axis] - a[axis]);
-            let mut point: [f64; 3] = std::array::from_fn(|k| a[k] + (b[k] - a[k]) * part);
+            let mut point: [f64; 4] = std::array::from_fn(|k| a[k] + (b[k] - a[k]) * part);
             point[axis] = plane;
             add(0, &point);
             add(1, &point);
@@ -64,16 +74,90 @@ fn sides(triangle: &Triangle, axis: usize, plane: f64) -> [[[f64; 3]; 2]; 2] {
     sides
 }
 
-/// What a box has in common with another one that is rounded outward.
-fn common(item: &Item, [lower, upper]: &[[f64; 3]; 2]) -> Option<Item> {
+/// What a box has in common with another one that is rounded outward: by more than to the next
+/// single.
+fn common(item: &Item, [lower, upper]: &[[f64; 4]; 2]) -> Option<Item> {
+    const PART: f64 = f32::EPSILON as f64;
+    const LEAST: f64 = 2e-45;
     let mut common = *item;
+    let mut some = true;
     for k in 0..3 {
-        let low = (lower[k] as f32).next_down().max(item.lanes[k]);
-        let high = (upper[k] as f32).next_up().min(-item.lanes[k + 4]);
-        if !(low <= high) {
-            return None;
-        }
+        let low = (lower[k] - (lower[k].abs() * PART + LEAST)) as f32;
+        let high = (upper[k] + (upper[k].abs() * PART + LEAST)) as f32;
+        let (least, most) = (item.lanes[k], -item.lanes[k + 4]);
+        let low = if low > least { low } else { least };
+        let high = if high < most { high } else { most };
+        some &= low <= high;
         (common.lanes[k], common.lanes[k + 4]) = (low, -high);
     }
-    Some(common)
+    some.then_some(common)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ombra_geometry::{Aabb, Point3};
+
+    /// Numbers in [0, 1) without a pattern.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut state = 1_u64;
+        move || {
+            state = state
+                .wrapping_mul(0x5851_f42d_4c95_7f2d)
+                .wrapping_add(0x1405_7b7e_f767_814f);
+            (state >> 40) as f64 / 16_777_216.0
+        }
+    }
+
+    #[test]
+    fn every_point_of_a_triangle_lies_in_a_part() {
+        let mut number = numbers();
+        for size in [1e-30, 1e-6, 1.0, 1e7, 1e30] {
+            for _ in 0..200 {
+                let corners = [(); 3]
+                    .map(|()| [number(), number(), number()].map(|x| ((x - 0.5) * size) as f32));
+                let triangle = corners.map(|[x, y, z]| [x, y, z, 0.0].map(f64::from));
+                let whole = Item::new(&Aabb::around(corners.map(Point3::from)), 7);
+                let mut parts = vec![whole];
+                for round in 0..6 {
+                    let axis = round % 3;
+                    let cut = |part: Item| {
+                        let (low, high) = (part.lanes[axis], -part.lanes[axis + 4]);
+                        let plane = low + (high - low) * 0.37;
+                        if low < plane && plane < high {
+                            split(&part, Some(&triangle), axis, plane)
+                                .into_iter()
+                                .flatten()
+                                .collect()
+                        } else {
+                            vec![part]
+                        }
+                    };
+                    parts = parts.into_iter().flat_map(cut).collect();
+                }
+                for _ in 0..50 {
+                    let (a, b) = (number(), number());
+                    let (a, b) = if a + b > 1.0 {
+                        (1.0 - a, 1.0 - b)
+                    } else {
+                        (a, b)
+                    };
+                    let point: [f64; 3] = std::array::from_fn(|k| {
+                        let [p, q, r] = triangle.map(|corner| corner[k]);
+                        p + (q - p) * a + (r - p) * b
+                    });
+                    // The point itself is rounded.
+                    let slack = 1e-12 * size;
+                    let holds = |part: &Item| {
+                        (0..3).all(|k| {
+                            f64::from(part.lanes[k]) - slack <= point[k]
+                                && point[k] <= slack - f64::from(part.lanes[k + 4])
+                        })
+                    };
+                    assert!(parts.iter().any(holds), "{corners:?} {point:?}");
+                }
+                assert!(parts.iter().all(|part| part.primitive() == 7));
+            }
+        }
+    }
 }

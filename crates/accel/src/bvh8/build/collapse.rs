@@ -49,7 +49,7 @@ impl Binary {
     }
 
     /// Adds a node over two others whose parts of the list lie side by side.
-    pub(super) fn join(&mut self, bounds: &Item, children: [usize; 2]) -> usize {
+    pub(super) fn join(&mut self, children: [usize; 2]) -> usize {
         let [a, b] = children.map(|child| &self.nodes[child]);
         let mut left = [0; WIDTH];
         let mut parted = [0.0; WIDTH];
@@ -64,6 +64,8 @@ impl Binary {
             }
             (parted[k], left[k]) = (best, places);
         }
+        let mut bounds = a.bounds;
+        bounds.add(&b.bounds);
         let area = bounds.half_area();
         let count = a.count + b.count;
         let (leaf, node) = (LEAF * area, parted[WIDTH - 1] + area);
@@ -79,7 +81,7 @@ impl Binary {
         }
         let first = a.first;
         self.add(Branch {
-            bounds: *bounds,
+            bounds,
             children: children.map(|child| child as u32),
             first,
             count,
@@ -87,6 +89,11 @@ impl Binary {
             left,
             is_leaf,
         })
+    }
+
+    /// The box of a node.
+    pub(super) fn bounds(&self, index: usize) -> &Item {
+        &self.nodes[index].bounds
     }
 
     fn add(&mut self, branch: Branch) -> usize {

@@ -20,7 +20,10 @@ pub(super) trait Part: Sized + Send {
     fn count(&self) -> usize;
 
     /// The box around them.
-    fn bounds(&self) -> &Item;
+    fn bounds(&self) -> Item;
+
+    /// How much it matters that a list is cut, far from the leaves.
+    fn size(&self) -> f32;
 
     /// Cuts a list that is longer than the shortest in two, neither empty.
     ///
@@ -38,7 +41,7 @@ pub(super) fn grow(list: impl Part) -> (WideTree, Vec<u32>) {
         return (WideTree::nothing(), Vec::new());
     }
     let mut grown = Grown::default();
-    let root = grown.grow(list, 1);
+    let (root, _) = grown.grow(list, 1);
     let tree = WideTree {
         root,
         nodes: grown.nodes,
@@ -56,23 +59,19 @@ struct Grown {
 }
 
 impl Grown {
-    /// Appends the tree over a list; its node would lie at a depth.
-    fn grow(&mut self, list: impl Part, depth: usize) -> Child {
+    /// Appends the tree over a list; its node would lie at a depth. Says what box it has.
+    fn grow(&mut self, list: impl Part, depth: usize) -> (Child, Item) {
         if list.count() < TASK {
             let mut binary = Binary::default();
             let root = halves(list, &mut binary, &mut self.numbers);
-            return binary.lay(root, depth, &mut self.nodes, &mut self.depth);
+            let child = binary.lay(root, depth, &mut self.nodes, &mut self.depth);
+            return (child, *binary.bounds(root));
         }
         self.depth = self.depth.max(depth);
         let lists = eight(list);
         let place = self.nodes.len();
-        let mut node = Node::EMPTY;
-        for (k, list) in lists.iter().enumerate() {
-            node.set(k, &list.bounds().bounds(), Child::NONE);
-        }
-        node.sort();
-        self.nodes.push(node);
-        let branches: Vec<(Child, Self)> = Vec::from_iter(lists)
+        self.nodes.push(Node::EMPTY);
+        let branches: Vec<((Child, Item), Self)> = Vec::from_iter(lists)
             .into_par_iter()
             .map(|list| {
                 let mut grown = Self::default();
@@ -84,58 +83,55 @@ impl Grown {
         self.nodes.reserve_exact(sum(|branch| branch.nodes.len()));
         self.numbers
             .reserve_exact(sum(|branch| branch.numbers.len()));
-        for (k, (root, branch)) in branches.into_iter().enumerate() {
+        let mut node = Node::EMPTY;
+        let mut bounds = Item::EMPTY;
+        for (k, ((root, own), branch)) in branches.into_iter().enumerate() {
             let before = [self.nodes.len(), self.numbers.len()];
-            self.nodes[place].child[k] = root.moved(before);
+            bounds.add(&own);
+            node.set(k, &own.bounds(), root.moved(before));
             self.nodes.extend(branch.nodes.into_iter().map(|mut node| {
-                for (child, _) in node
-                    .child
-                    .iter_mut()
-                    .zip(node.lower[0])
-                    .filter(|(_, x)| *x < f32::INFINITY)
-                {
-                    *child = child.moved(before);
-                }
+                node.move_children(before);
                 node
             }));
             self.numbers.extend(branch.numbers);
             self.depth = self.depth.max(branch.depth);
         }
-        Child::node(place)
+        node.sort();
+        self.nodes[place] = node;
+        (Child::node(place), bounds)
     }
 }
 
 /// Cuts a list in two again and again, and adds what it becomes to a binary tree.
 fn halves<P: Part>(list: P, binary: &mut Binary, numbers: &mut Vec<u32>) -> usize {
-    let bounds = *list.bounds();
     if list.count() <= P::SHORTEST {
         let first = numbers.len();
         list.write(numbers);
-        return binary.leaf(&bounds, first, list.count());
+        return binary.leaf(&list.bounds(), first, list.count());
     }
     let children = list.cut().map(|list| halves(list, binary, numbers));
-    binary.join(&bounds, children)
+    binary.join(children)
 }
 
-/// Cuts a list that is no leaf in up to eight: again and again the part with the largest surface.
+/// Cuts a list that is no leaf in up to eight: again and again the largest part.
 fn eight<P: Part>(list: P) -> ArrayVec<P, WIDTH> {
     let mut lists = ArrayVec::new();
     // Of lists that are leaves, less than that of any other.
-    let mut areas = ArrayVec::<f32, WIDTH>::new();
-    let area = |list: &P| match list.count() {
+    let mut sizes = ArrayVec::<f32, WIDTH>::new();
+    let size = |list: &P| match list.count() {
         ..=MAX_LEAF => -1.0,
-        _ => list.bounds().half_area(),
+        _ => list.size(),
     };
-    areas.push(area(&list));
+    sizes.push(size(&list));
     lists.push(list);
     while !lists.is_full() {
-        let k = (1..lists.len()).fold(0, |a, b| if areas[b] > areas[a] { b } else { a });
-        if areas[k] < 0.0 {
+        let k = (1..lists.len()).fold(0, |a, b| if sizes[b] > sizes[a] { b } else { a });
+        if sizes[k] < 0.0 {
             break;
         }
-        areas.swap_remove(k);
+        sizes.swap_remove(k);
         for list in lists.swap_remove(k).cut() {
-            areas.push(area(&list));
+            sizes.push(size(&list));
             lists.push(list);
         }
     }

@@ -7,5 +7,7 @@ mod grow;
 pub(crate) mod item;
 pub(crate) mod items;
 mod lanes;
+pub(crate) mod morton;
 pub(crate) mod pack;
+mod radix;
 pub(crate) mod spatial;

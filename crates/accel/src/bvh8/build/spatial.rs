@@ -11,7 +11,7 @@
 use ombra_geometry::TriangleMesh;
 
 use super::super::kernel::MAX_DEPTH;
-use super::super::node::Child;
+use super::super::node::{Child, MAX_LEAF};
 use super::super::wide::WideTree;
 use super::clip::{Triangle, split};
 use super::grow::{self, Part};
@@ -23,6 +23,10 @@ use super::lanes::{self, Binning, Cut};
 const MORE: usize = 2;
 /// By how much boxes must overlap, as a part of the root's area.
 const OVERLAP: f32 = 1e-5;
+/// By how much boxes must overlap, as a part of the list's own area. With less a hall of 66 000
+/// triangles has no fewer nodes visited, and a city of boxes 1.5 %, for a build that takes three times
+/// as long; with twice as much a fifth of what is gained in the hall is lost (November 2026).
+const PART: f32 = 0.2;
 /// Bins an axis.
 const BINS: usize = 16;
 
@@ -67,8 +71,12 @@ impl Part for List<'_> {
         self.items.len()
     }
 
-    fn bounds(&self) -> &Item {
-        &self.bounds
+    fn bounds(&self) -> Item {
+        self.bounds
+    }
+
+    fn size(&self) -> f32 {
+        self.bounds.half_area()
     }
 
     fn cut(self) -> [Self; 2] {
@@ -84,7 +92,8 @@ impl Part for List<'_> {
         let overlap = object.as_ref().map_or(f32::INFINITY, |cut| {
             common_area(&cut.bounds[0], &cut.bounds[1])
         });
-        if self.more > 0 && overlap > self.overlap {
+        let enough = overlap > self.overlap && overlap > PART * self.bounds.half_area();
+        if self.more > 0 && count > MAX_LEAF && enough {
             let limit = object.as_ref().map_or(f32::INFINITY, |cut| cut.cost);
             if let Some(plane) = self.best_plane(limit)
                 && let Some(sides) = self.cut_space(&plane)
@@ -162,7 +171,7 @@ impl<'a> List<'a> {
     /// The triangle of an item, if it is one to compute with.
     fn triangle(&self, item: &Item) -> Option<Triangle> {
         let corners = self.mesh?.corners(item.primitive() as usize);
-        let corners = corners.map(|corner| corner.to_array().map(f64::from));
+        let corners = corners.map(|p| [p.x, p.y, p.z, 0.0].map(f64::from));
         let finite = corners.as_flattened().iter().all(|x| x.is_finite());
         finite.then_some(corners)
     }
@@ -198,7 +207,7 @@ impl<'a> List<'a> {
             }
             let triangle = self.triangle(item);
             let mut rest = Some(*item);
-            for bin in first..last {
+            for (bin, within) in boxes.iter_mut().enumerate().take(last).skip(first) {
                 let plane = planes.at(bin + 1);
                 // Parts are smaller than the bins that the whole reaches.
                 let Some(part) = rest.filter(|part| part.lanes[axis] < plane) else {
@@ -210,7 +219,7 @@ impl<'a> List<'a> {
                     [Some(part), None]
                 };
                 if let Some(below) = below {
-                    boxes[bin].add(&below);
+                    within.add(&below);
                 }
                 rest = above;
             }

@@ -94,6 +94,18 @@ impl Bins {
         }
     }
 
+    /// How many primitives each bin has.
+    #[cfg(test)]
+    pub(super) fn counts(&self) -> [[u32; BINS]; 3] {
+        self.counts
+    }
+
+    /// All boxes.
+    #[cfg(test)]
+    pub(super) fn boxes(&self) -> impl Iterator<Item = &Item> {
+        self.boxes.as_flattened().iter()
+    }
+
     /// How many primitives lie to the left of a cut.
     pub(in super::super) fn left_of(&self, cut: &Cut) -> usize {
         let counts = &self.counts[cut.axis][..cut.first_right];
@@ -138,8 +150,8 @@ unsafe fn put<E: Eight>(bins: &mut Bins, item: &Item, binning: &Binning) {
     unsafe {
         let own = E::load(item);
         let into = own.bins(&binning.low, &binning.scale);
-        for axis in 0..3 {
-            let bin = into[axis] as usize % BINS;
+        for (axis, bin) in into.into_iter().enumerate() {
+            let bin = bin as usize % BINS;
             let of = &mut bins.boxes[axis][bin];
             E::load(of).smaller(own).store(of);
             bins.counts[axis][bin] += 1;

@@ -114,3 +114,66 @@ pub(crate) fn zeroed_quads(count: usize) -> Vec<super::super::Quad> {
     // SAFETY: a quad is forty singles.
     unsafe { memory::zeroed(count) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ombra_geometry::{Aabb, Point3};
+
+    /// Boxes without a pattern, some of them far out.
+    fn items(count: u32) -> Vec<Item> {
+        let number = |i: u32| (i.wrapping_mul(0x9e37_79b9) >> 8) as f32 / 16_777_216.0;
+        let item = |i: u32| {
+            let low = [3 * i, 3 * i + 1, 3 * i + 2].map(|k| number(k) * number(i).powi(8) * 1e9);
+            let high = low.map(|x| x + number(i + 7));
+            Item::new(&Aabb::around([low, high].map(Point3::from)), i)
+        };
+        (0..count).map(item).collect()
+    }
+
+    #[test]
+    fn every_level_makes_the_same_cuts_to_the_bit() {
+        let bits = |item: &Item| item.lanes.map(f32::to_bits);
+        // Not the numbers, which mean nothing in boxes that were added up.
+        let box_bits = |item: &Item| {
+            let [a, b, c, _, x, y, z, _] = bits(item);
+            [a, b, c, x, y, z]
+        };
+        for count in [2, 9, 31, 33, 300, 5000] {
+            let items = items(count);
+            let mut centres = Item::EMPTY;
+            items.iter().for_each(|item| centres.add_centre(item));
+            let binning = Binning::new(&centres, items.len()).unwrap();
+            // SAFETY: every processor has these.
+            let plain = unsafe { fill::<portable::Portable>(&items, &binning) };
+            let bins = filled(&items, &binning);
+            assert_eq!(bins.counts(), plain.counts());
+            let boxes = |bins: &Bins| bins.boxes().map(box_bits).collect::<Vec<_>>();
+            assert_eq!(boxes(&bins), boxes(&plain));
+            let cut = best_cut(&bins, &binning).unwrap();
+            // SAFETY: as above.
+            let plain = unsafe { best::<portable::Portable>(&plain, &binning) }.unwrap();
+            assert_eq!(
+                (cut.left, cut.cost.to_bits()),
+                (plain.left, plain.cost.to_bits())
+            );
+            assert_eq!(
+                cut.bounds.each_ref().map(box_bits),
+                plain.bounds.each_ref().map(box_bits)
+            );
+            let mut to = vec![Item::EMPTY; items.len()];
+            let (left, right) = to.split_at_mut(cut.left);
+            let sides = parted(&items, &cut, left, right);
+            let mut plain_to = vec![Item::EMPTY; items.len()];
+            let (left, right) = plain_to.split_at_mut(cut.left);
+            // SAFETY: as above.
+            let plain_sides = unsafe { part::<portable::Portable>(&items, &plain, left, right) };
+            assert_eq!(
+                sides.each_ref().map(box_bits),
+                plain_sides.each_ref().map(box_bits)
+            );
+            let all = |items: &[Item]| items.iter().map(bits).collect::<Vec<_>>();
+            assert_eq!(all(&to), all(&plain_to));
+        }
+    }
+}
