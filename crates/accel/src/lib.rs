@@ -47,6 +47,7 @@ mod mask;
 mod octree;
 mod partition;
 mod primitives;
+mod refit;
 mod search;
 mod statistics;
 mod structure;

@@ -2,8 +2,8 @@
 
 use ombra_geometry::Aabb;
 
-use super::collapse::WideTree;
 use super::node::{Child, Node};
+use super::wide::WideTree;
 
 /// Puts a node in place of each leaf that lists several primitives: with a child for each of them.
 ///

@@ -7,6 +7,7 @@ use arrayvec::ArrayVec;
 
 use super::kernel::{self, STACK};
 use super::node::{Child, WIDTH};
+use super::quad::Quad;
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
@@ -67,15 +68,7 @@ impl Wide {
         match &self.leaves {
             Leaves::Lists(list) => list[leaf.range()].iter().copied().collect(),
             Leaves::Quads(quads) => {
-                let places = leaf.places();
-                let numbers = |k: usize| {
-                    let at = 9 * places + k;
-                    quads[leaf.quad() + at / 40].numbers[at % 40].to_bits()
-                };
-                (0..places)
-                    .map(numbers)
-                    .filter(|&n| n != u32::MAX)
-                    .collect()
+                Quad::triangles(&quads[leaf.quad()..leaf.quad() + leaf.places() / 4])
             }
         }
     }

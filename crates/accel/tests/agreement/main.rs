@@ -15,6 +15,7 @@ mod numbers;
 mod proptests;
 mod rays;
 mod real_meshes;
+mod refit;
 mod scale;
 mod statistics;
 mod stretched;
