@@ -4,6 +4,7 @@
 //! later is covered without a line.
 
 mod answers;
+mod bundles;
 mod custom;
 mod degenerate;
 mod distances;

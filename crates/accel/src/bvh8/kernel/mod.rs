@@ -8,6 +8,7 @@ mod dispatch;
 mod level;
 mod lists;
 mod many;
+mod packet;
 mod ray;
 mod stream;
 mod walk;
