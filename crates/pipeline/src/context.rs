@@ -1,7 +1,7 @@
 //! What a program sees of the launch around it.
 
 use ombra_accel::{Candidate, Statistics, Traversable};
-use ombra_geometry::{EdgeRule, Ray};
+use ombra_geometry::{EdgeRule, Hit, Ray};
 
 use crate::{Control, Exception, Pipeline, RayProgram, RayType};
 
@@ -119,8 +119,27 @@ impl<'a, P: Pipeline> Context<'a, P> {
             .world()
             .search(&(*ray).into(), EdgeRule::Closed, statistics, &mut any_hit)
             .map(|candidate| candidate.hit());
+        self.shade::<R>(ray, hit.as_ref(), payload)
+    }
+
+    /// What follows when it is known what a ray meets: its closest-hit or its miss program is called,
+    /// one level deeper.
+    ///
+    /// # Errors
+    /// When the ray is not valid, and what the programs raise.
+    #[inline]
+    pub fn shade<R: RayType>(
+        &mut self,
+        ray: &Ray,
+        hit: Option<&Hit>,
+        payload: &mut R::Payload,
+    ) -> Result<(), Exception>
+    where
+        P: RayProgram<R>,
+    {
+        let pipeline = self.pipeline;
         self.depth += 1;
-        let result = match &hit {
+        let result = match hit {
             Some(hit) => pipeline.closest_hit(self, ray, hit, payload),
             None if ray.is_valid() => pipeline.miss(self, ray, payload),
             // A ray that is not valid hits nothing, so it is enough to look at those that miss.

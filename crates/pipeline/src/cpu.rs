@@ -5,7 +5,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::{Context, Control, Done, Exception, LaunchError, LaunchException, RayGeneration};
+use crate::batch::launch_index;
+use crate::{
+    Batch, Context, Control, Done, Exception, LaunchError, LaunchException, RayGeneration,
+};
 
 /// How many launch indices one thread takes at a time, at most: enough to hide the cost of taking.
 const LARGEST_CHUNK: usize = 256;
@@ -142,8 +145,17 @@ fn run<Entry, P: RayGeneration<Entry>>(
     control: &Control<'_>,
 ) -> Part {
     let mut part = Part::default();
+    if !elements.is_empty() && !control.is_stopped() {
+        let mut batch = Batch::new(program, control, first, elements.len(), size);
+        if program.generate_many(&mut batch, elements) {
+            part.report.rays = batch.rays();
+            part.report.indices = elements.len() as u64;
+        }
+    }
     let mut index = launch_index(first, size);
-    for element in elements {
+    // What was not done at once is done one by one.
+    let done = part.report.indices as usize;
+    for element in &mut elements[done..] {
         if control.is_stopped() {
             part.report.stopped = true;
             break;
@@ -175,13 +187,6 @@ fn run<Entry, P: RayGeneration<Entry>>(
         });
     }
     part
-}
-
-/// The launch index of an element of the output buffer. No dimension may be 0.
-fn launch_index(element: usize, [width, height, _]: [u32; 3]) -> [u32; 3] {
-    let (width, height) = (width as usize, height as usize);
-    let (row, layer) = (element / width, element / width / height);
-    [element % width, row % height, layer].map(|i| i as u32)
 }
 
 /// Goes on to the next launch index.

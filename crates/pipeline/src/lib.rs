@@ -16,7 +16,7 @@
 //! | intersection program, bounding box program | [`Intersection`], placed by [`Custom`] |
 //! | top object | [`Pipeline::world`] |
 //! | acceleration `"Lbvh"`, traverser `"Bvh"` | [`StructureKind`](ombra_accel::StructureKind), parsed from a name; these two names are names there, too |
-//! | `rtTrace` | [`Context::trace`] |
+//! | `rtTrace` | [`Context::trace`]; many at once: [`RayGeneration::generate_many`] |
 //! | `rtIgnoreIntersection`, `rtTerminateRay` | [`AnyHit::Ignore`], [`AnyHit::Terminate`] |
 //! | `rtReportIntersection` | the `report` of [`Intersection::intersect`] |
 //! | `rtThrow`, `rtGetExceptionCode` | `return Err(`[`Exception::user`]`(..))`, `match` on [`Exception`] |
@@ -76,6 +76,7 @@
 //! # Ok::<(), ombra_pipeline::LaunchError>(())
 //! ```
 
+mod batch;
 mod context;
 mod control;
 mod cpu;
@@ -83,6 +84,7 @@ mod exception;
 mod intersection;
 mod program;
 
+pub use batch::Batch;
 pub use context::Context;
 pub use control::{Control, Done};
 pub use cpu::{Cpu, LaunchReport};

@@ -3,7 +3,7 @@
 use ombra_accel::Traversable;
 use ombra_geometry::{Hit, Ray};
 
-use crate::{AnyHit, Context, Exception, LaunchException};
+use crate::{AnyHit, Batch, Context, Exception, LaunchException};
 
 /// A kind of ray: radiance, shadow, whatever a program needs. An uninhabited type does for one.
 pub trait RayType {
@@ -109,6 +109,16 @@ pub trait RayGeneration<Entry = ()>: Pipeline {
         cx: &mut Context<'_, Self>,
         output: &mut Self::Output,
     ) -> Result<(), Exception>;
+
+    /// The same for consecutive launch indices at once, if there is a way that is quicker: such as
+    /// tracing the first rays of all of them together. It leaves what
+    /// [`generate`](Self::generate) leaves, to the bit, or says no and leaves `outputs` as they were;
+    /// then each is generated alone. So where something is exceptional it says no, and the exception is
+    /// met again where it belongs.
+    fn generate_many(&self, batch: &mut Batch<'_, Self>, outputs: &mut [Self::Output]) -> bool {
+        let _ = (batch, outputs);
+        false
+    }
 
     /// The exception program: may write something else into the element, and says whether the
     /// launch is still good. By default it is not: the launch ends with that error.

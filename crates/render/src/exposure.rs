@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
-use ombra_geometry::Ray;
-use ombra_pipeline::Exception;
+use ombra_geometry::{Hit, Ray};
+use ombra_pipeline::{Batch, Context, Exception, Pipeline};
 use ombra_scene::camera::{CameraRays, CameraSample, Projection};
 use ombra_scene::{Camera, Rgb};
 
 use crate::film::{Crop, Pixel};
 use crate::sampler::{Dimension, Numbers, Sample};
+use crate::shots::Shots;
 use crate::{SamplerKind, Settings};
 
 /// One pass over a film: which samples of its pixels to take, and along which rays.
@@ -60,6 +61,63 @@ impl<'a> Exposure<'a> {
         }
         *pixel = exposed;
         Ok(())
+    }
+
+    /// [`expose`](Self::expose) for all pixels of a batch: their camera rays are traced together, and
+    /// `measure` is told what each meets. No, and nothing changed, if there is an exception.
+    #[inline]
+    pub(crate) fn expose_many<P: Pipeline>(
+        &self,
+        batch: &mut Batch<'_, P>,
+        pixels: &mut [Pixel],
+        mut measure: impl FnMut(
+            &mut Context<'_, P>,
+            &Ray,
+            Option<&Hit>,
+            &Sample,
+        ) -> Result<Rgb, Exception>,
+    ) -> bool {
+        let shots = self.shots(batch);
+        let mut exposed = pixels.to_vec();
+        for (k, pixel) in exposed.iter_mut().enumerate() {
+            if batch.is_stopped() {
+                return false;
+            }
+            let mut cx = batch.context(k);
+            for (ray, sample, hit) in shots.of_pixel(k) {
+                let Ok(measured) = measure(&mut cx, ray, hit, sample) else {
+                    return false;
+                };
+                pixel.add(measured);
+            }
+            batch.count(&cx);
+        }
+        pixels.copy_from_slice(&exposed);
+        true
+    }
+
+    /// The camera rays of all pixels of a batch, and what they meet.
+    pub(crate) fn shots<P: Pipeline>(&self, batch: &mut Batch<'_, P>) -> Shots {
+        let each = self.samples.len();
+        let count = batch.len() * each;
+        let mut shots = Shots {
+            rays: Vec::with_capacity(count),
+            samples: Vec::with_capacity(count),
+            hits: vec![None; count],
+            each,
+        };
+        for k in 0..batch.len() {
+            let [x, y, _] = batch.context(k).launch_index();
+            let place = [self.crop.x0 + x, self.crop.y0 + y];
+            let numbers = self.numbers(place);
+            for index in self.samples.clone() {
+                let sample = numbers.sample(index);
+                shots.rays.push(self.ray(place, &sample));
+                shots.samples.push(sample);
+            }
+        }
+        batch.intersect_many(&shots.rays, &mut shots.hits);
+        shots
     }
 
     /// Which samples of each pixel are taken.

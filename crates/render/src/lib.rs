@@ -54,6 +54,7 @@ mod integrator;
 mod render;
 mod settings;
 mod shading;
+mod shots;
 mod watch;
 
 pub use film::{Crop, Film};

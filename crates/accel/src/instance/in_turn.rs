@@ -19,6 +19,9 @@ use crate::{AnyHit, Candidate, Primitives, Reach, Span, TraversalRay, Visitor as
 /// With more placements than this the walk is quicker.
 const MOST: usize = 16;
 
+/// With fewer triangles for each placement than this, too.
+const LEAST: usize = 64;
+
 /// Rays at a time, so that what is noted of each stays near.
 const BLOCK: usize = 4096;
 
@@ -90,16 +93,20 @@ impl<P: Primitives> Instances<P> {
         if self.entries.len() > MOST {
             return false;
         }
-        let (mut meshes, mut others) = (Vec::new(), Vec::new());
+        let (mut meshes, mut others, mut triangles) = (Vec::new(), Vec::new(), 0);
         for (number, entry) in (0..).zip(&self.entries) {
             let bounds = self.bounds(number);
             match self.mesh(entry) {
                 _ if bounds.is_empty() => {}
-                Some(tree) if bounds.is_finite() => meshes.push((number, tree)),
+                Some(tree) if bounds.is_finite() => {
+                    let below = &self.geometries[entry.geometry.index()];
+                    triangles += below.primitives().len();
+                    meshes.push((number, tree));
+                }
                 _ => others.push(number),
             }
         }
-        if meshes.is_empty() {
+        if triangles < LEAST * (meshes.len() + others.len()) {
             return false;
         }
         let mut batch = Batch::default();

@@ -5,5 +5,6 @@ mod exceptions;
 mod hits;
 mod intersection;
 mod launch;
+mod many;
 mod nesting;
 mod row;

@@ -2,7 +2,7 @@
 
 use ombra_accel::{Statistics, Traversable as _};
 use ombra_geometry::{Hit, Ray};
-use ombra_pipeline::{Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
+use ombra_pipeline::{Batch, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
 use ombra_scene::camera::Camera;
 use ombra_scene::{Rgb, World};
 use rayon::prelude::*;
@@ -132,5 +132,13 @@ impl RayGeneration for LocalLight<'_> {
                 cx.trace::<Primary>(ray, &mut payload)?;
                 Ok(payload.1)
             })
+    }
+
+    fn generate_many(&self, batch: &mut Batch<'_, Self>, pixels: &mut [Pixel]) -> bool {
+        (self.exposure).expose_many(batch, pixels, |cx, ray, hit, sample| {
+            let mut payload = (*sample, Rgb::BLACK);
+            cx.shade::<Primary>(ray, hit, &mut payload)?;
+            Ok(payload.1)
+        })
     }
 }

@@ -3,7 +3,9 @@
 use std::f32::consts::TAU;
 
 use ombra_geometry::{Hit, Normal3, Ray, Vector3};
-use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
+use ombra_pipeline::{
+    AnyHit, Batch, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType,
+};
 use ombra_scene::{Interaction, Rgb, World};
 
 use super::View;
@@ -116,6 +118,53 @@ impl<O: Observer> RayGeneration for AmbientOcclusion<'_, O> {
                 Ok(openness)
             })
     }
+
+    /// All camera rays together, then all rays from what they meet.
+    fn generate_many(&self, batch: &mut Batch<'_, Self>, pixels: &mut [Pixel]) -> bool {
+        // One who listens is told of one ray after another.
+        if O::LISTENS {
+            return false;
+        }
+        let shots = self.exposure.shots(batch);
+        let mut open = vec![Rgb::WHITE; shots.rays.len()];
+        let (mut rays, mut asking) = (Vec::new(), Vec::new());
+        for (k, (ray, hit)) in shots.rays.iter().zip(&shots.hits).enumerate() {
+            if let Some(hit) = hit {
+                let place = self.world.interaction(ray, hit);
+                let ray = self.probe(&place, &shots.samples[k]);
+                if ray.is_valid() {
+                    rays.push(ray);
+                    asking.push(k);
+                }
+            } else if !ray.is_valid() {
+                return false;
+            }
+        }
+        if batch.is_stopped() {
+            return false;
+        }
+        let mut occluded = vec![false; rays.len()];
+        batch.occluded_many(&rays, &mut occluded);
+        for (k, occluded) in asking.into_iter().zip(occluded) {
+            if occluded {
+                open[k] = Rgb::BLACK;
+            }
+        }
+        for (pixel, open) in pixels.iter_mut().zip(open.chunks(shots.each)) {
+            open.iter().for_each(|&open| pixel.add(open));
+        }
+        true
+    }
+}
+
+impl<O> AmbientOcclusion<'_, O> {
+    /// The ray in one direction over a place.
+    fn probe(&self, place: &Interaction, sample: &Sample) -> Ray {
+        // The true normal: over a shading normal some directions would start into the surface.
+        let normal = place.normal.facing(-place.wo);
+        let direction = cosine_weighted(normal, sample.pair(Dimension::Hemisphere));
+        place.spawn_within(direction, self.distance)
+    }
 }
 
 impl<O: Observer> AmbientOcclusion<'_, O> {
@@ -126,10 +175,7 @@ impl<O: Observer> AmbientOcclusion<'_, O> {
         place: &Interaction,
         sample: &Sample,
     ) -> Result<Rgb, Exception> {
-        // The true normal: over a shading normal some directions would start into the surface.
-        let normal = place.normal.facing(-place.wo);
-        let direction = cosine_weighted(normal, sample.pair(Dimension::Hemisphere));
-        let ray = place.spawn_within(direction, self.distance);
+        let ray = self.probe(place, sample);
         self.observer.tell(|| Event::Wanted {
             kind: RayKind::Occlusion,
             ray,

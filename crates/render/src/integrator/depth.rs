@@ -1,7 +1,7 @@
 //! Distances from the camera.
 
 use ombra_geometry::{Aabb, Hit, Ray};
-use ombra_pipeline::{Context, Exception, Pipeline, RayGeneration, RayProgram};
+use ombra_pipeline::{Batch, Context, Exception, Pipeline, RayGeneration, RayProgram};
 use ombra_scene::camera::Projection;
 use ombra_scene::{Camera, Rgb, World};
 
@@ -99,6 +99,16 @@ impl<O: Observer> RayGeneration for Depth<'_, O> {
             view(&self.observer, cx, ray, &mut measured)?;
             Ok(measured)
         })
+    }
+
+    fn generate_many(&self, batch: &mut Batch<'_, Self>, pixels: &mut [Pixel]) -> bool {
+        // One who listens is told of one ray after another.
+        !O::LISTENS
+            && self.exposure.expose_many(batch, pixels, |cx, ray, hit, _| {
+                let mut measured = Rgb::BLACK;
+                cx.shade::<View>(ray, hit, &mut measured)?;
+                Ok(measured)
+            })
     }
 }
 

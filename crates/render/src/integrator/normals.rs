@@ -1,7 +1,7 @@
 //! Shading normals as colours.
 
 use ombra_geometry::{Hit, Ray};
-use ombra_pipeline::{Context, Exception, Pipeline, RayGeneration, RayProgram};
+use ombra_pipeline::{Batch, Context, Exception, Pipeline, RayGeneration, RayProgram};
 use ombra_scene::{Rgb, World};
 
 use super::{View, view};
@@ -72,5 +72,15 @@ impl<O: Observer> RayGeneration for Normals<'_, O> {
             view(&self.observer, cx, ray, &mut colour)?;
             Ok(colour)
         })
+    }
+
+    fn generate_many(&self, batch: &mut Batch<'_, Self>, pixels: &mut [Pixel]) -> bool {
+        // One who listens is told of one ray after another.
+        !O::LISTENS
+            && self.exposure.expose_many(batch, pixels, |cx, ray, hit, _| {
+                let mut colour = Rgb::BLACK;
+                cx.shade::<View>(ray, hit, &mut colour)?;
+                Ok(colour)
+            })
     }
 }

@@ -6,7 +6,9 @@ mod shadow;
 mod tests;
 
 use ombra_geometry::{Hit, Ray};
-use ombra_pipeline::{AnyHit, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType};
+use ombra_pipeline::{
+    AnyHit, Batch, Context, Exception, Pipeline, RayGeneration, RayProgram, RayType,
+};
 use ombra_scene::{Interaction, Material, Rgb, World};
 
 use crate::Settings;
@@ -345,6 +347,18 @@ impl<O: Observer> RayGeneration for Whitted<'_, O> {
             .expose(cx.launch_index(), pixel, |ray, sample| {
                 self.observer.tell(|| Event::camera(ray));
                 self.radiance(cx, ray, Traced::camera(*sample))
+            })
+    }
+
+    /// The rays of the camera go together; of what they bring on, each goes its own way.
+    fn generate_many(&self, batch: &mut Batch<'_, Self>, pixels: &mut [Pixel]) -> bool {
+        // One who listens is told of one ray after another; and the camera's may not be worth tracing.
+        !O::LISTENS
+            && self.least_importance <= 1.0
+            && (self.exposure).expose_many(batch, pixels, |cx, ray, hit, sample| {
+                let mut traced = Traced::camera(*sample);
+                cx.shade::<Radiance>(ray, hit, &mut traced)?;
+                Ok(traced.radiance)
             })
     }
 }
