@@ -388,7 +388,11 @@ fn prefetch(at: *const i8) {
 fn prefetch(at: *const i8) {
     // SAFETY: as on x86-64.
     unsafe {
-        std::arch::asm!("prfm pldl1keep, [{}]", in(reg) at, options(nomem, nostack, preserves_flags));
+        std::arch::asm!(
+            "prfm pldl1keep, [{}]",
+            in(reg) at,
+            options(readonly, nostack, preserves_flags),
+        );
     }
 }
 
