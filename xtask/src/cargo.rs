@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail, ensure};
 use cargo_metadata::{Message, Metadata, MetadataCommand, TargetKind};
@@ -44,6 +45,26 @@ pub(crate) fn run(command: &mut Command) -> Result<()> {
         .with_context(|| format!("cannot start `{line}`"))?;
     ensure!(status.success(), "`{line}` failed ({status})");
     Ok(())
+}
+
+/// Whether a command ends well in time. It is stopped if it does not end.
+pub(crate) fn succeeds_within(command: &mut Command, limit: Duration) -> bool {
+    let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
+    let Ok(mut child) = quiet.spawn() else {
+        return false;
+    };
+    let start = Instant::now();
+    while start.elapsed() < limit {
+        match child.try_wait() {
+            Ok(Some(status)) => return status.success(),
+            Ok(None) => std::thread::sleep(Duration::from_millis(50)),
+            Err(_) => break,
+        }
+    }
+    // Already gone, or stopped now: either way there is nothing left to do about it.
+    let _ = child.kill();
+    let _ = child.wait();
+    false
 }
 
 /// A command as a person would type it.
@@ -171,5 +192,16 @@ mod tests {
         let manifests = tracked(&["Cargo.toml"]).unwrap();
         assert!(manifests.contains(&PathBuf::from("xtask/Cargo.toml")));
         assert!(manifests.iter().all(|file| file.ends_with("Cargo.toml")));
+    }
+
+    #[test]
+    fn a_command_that_hangs_is_stopped() {
+        let mut listen = cargo("--version");
+        assert!(succeeds_within(&mut listen, Duration::from_secs(60)));
+        assert!(!succeeds_within(&mut cargo("--version"), Duration::ZERO));
+        assert!(!succeeds_within(
+            &mut cargo("--no-such-flag"),
+            Duration::from_secs(60)
+        ));
     }
 }

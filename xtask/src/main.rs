@@ -3,6 +3,7 @@
 //! One file a task. None of them imports a crate of ombra, so that the checks build in seconds and
 //! run on a tree that does not compile.
 
+mod aarch64;
 mod bench;
 mod cargo;
 mod commands;
@@ -42,6 +43,8 @@ enum Task {
     /// Build the website in target/docs and check the pages: links lead somewhere, formulas can be
     /// set, commands exist, and those that make pictures work
     Docs,
+    /// Compile everything for AArch64, where kernels have instructions of their own
+    Aarch64,
     /// Get what benches need that is not built here
     Bench(bench::Options),
     /// Check what all crates share, the licence files, and the words that files may not hold
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
         Task::Layers => layers::run(),
         Task::Deny => deny::run(),
         Task::Docs => docs(),
+        Task::Aarch64 => aarch64::run(),
         Task::Bench(options) => bench::run(options),
         Task::House => members::run()
             .and_then(|()| licences::run())

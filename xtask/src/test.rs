@@ -1,8 +1,9 @@
 //! Everything that CI runs, in order, the quick checks first.
 //!
 //! Time is compiling, so everything is compiled once: `clippy` and `doc` share one set of
-//! metadata; binaries, examples and tests share one set of libraries in the test profile. No flags
-//! are passed through `RUSTFLAGS`, which would compile all dependencies again.
+//! metadata, `aarch64` makes its own for another processor; binaries, examples and tests share one
+//! set of libraries in the test profile. No flags are passed through `RUSTFLAGS`, which would compile
+//! all dependencies again.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -10,7 +11,9 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::cargo::{self, Executables};
-use crate::{commands, deny, examples, layers, licences, links, members, pictures, site, words};
+use crate::{
+    aarch64, commands, deny, examples, layers, licences, links, members, pictures, site, words,
+};
 
 /// What earlier steps leave to later ones.
 #[derive(Default)]
@@ -38,6 +41,7 @@ const STEPS: &[Step] = &[
             "clippy --workspace --all-targets -- -D warnings",
         ))
     }),
+    ("aarch64", |_| aarch64::run()),
     ("doc", |_| {
         let mut doc = cargo::cargo("doc --workspace --no-deps");
         cargo::run(doc.env("RUSTDOCFLAGS", "-D warnings"))

@@ -1,7 +1,10 @@
-#![expect(
-    unsafe_code,
-    reason = "Embree wants denormal numbers flushed on the threads that call it, and only two \
-              instructions can do that"
+#![cfg_attr(
+    target_arch = "x86_64",
+    expect(
+        unsafe_code,
+        reason = "Embree wants denormal numbers flushed on the threads that call it, and only two \
+                  instructions can do that"
+    )
 )]
 //! Denormal numbers as zero, for all contestants alike.
 //!

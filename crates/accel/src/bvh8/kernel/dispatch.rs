@@ -3,6 +3,10 @@
 use ombra_geometry::{EdgeRule, Hit, Ray};
 
 use super::super::node::{Child, Node};
+#[cfg(target_arch = "aarch64")]
+use super::level::Neon;
+#[cfg(debug_assertions)]
+use super::level::NeonTwin;
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
 use super::level::{Lanes, Level, Portable};
@@ -23,6 +27,10 @@ macro_rules! kernels {
                 unsafe {
                     match level {
                         Level::Scalar => scalar::$name($($argument),*),
+                        #[cfg(debug_assertions)]
+                        Level::NeonTwin => neon_twin::$name($($argument),*),
+                        #[cfg(target_arch = "aarch64")]
+                        Level::Neon => neon::$name($($argument),*),
                         #[cfg(target_arch = "x86_64")]
                         Level::Avx2 => avx2::$name($($argument),*),
                         #[cfg(target_arch = "x86_64")]
@@ -38,6 +46,29 @@ macro_rules! kernels {
                 pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
                     // SAFETY: every processor has these.
                     unsafe { $body::<Portable>($($argument),*) }
+                }
+            )*
+        }
+
+        #[cfg(debug_assertions)]
+        mod neon_twin {
+            use super::*;
+            $(
+                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                    // SAFETY: every processor has these.
+                    unsafe { $body::<NeonTwin>($($argument),*) }
+                }
+            )*
+        }
+
+        #[cfg(target_arch = "aarch64")]
+        mod neon {
+            use super::*;
+            $(
+                #[target_feature(enable = "neon")]
+                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                    // SAFETY: the caller's promise.
+                    unsafe { $body::<Neon>($($argument),*) }
                 }
             )*
         }

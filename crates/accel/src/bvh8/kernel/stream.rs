@@ -365,20 +365,39 @@ unsafe fn take_in<L: Lanes, W: Word>(under: *mut Under) {
 /// Asks memory for what comes next.
 #[inline(always)]
 fn ask_for(tree: &Tree<'_>, child: Child) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let (nodes, quads) = (tree.nodes.as_ptr().cast::<i8>(), tree.quads.as_ptr().cast());
-        let at = if child.is_leaf() { quads } else { nodes };
-        // Addresses of what is not there do no harm.
-        let at = at.wrapping_add(child.offset());
-        for line in 0..4 {
-            // SAFETY: a prefetch reads nothing that a program can see.
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(64 * line)) };
-        }
+    let (nodes, quads) = (tree.nodes.as_ptr().cast::<i8>(), tree.quads.as_ptr().cast());
+    let at = if child.is_leaf() { quads } else { nodes };
+    // Addresses of what is not there do no harm.
+    let at = at.wrapping_add(child.offset());
+    for line in 0..4 {
+        prefetch(at.wrapping_add(64 * line));
     }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = (tree, child);
 }
+
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn prefetch(at: *const i8) {
+    use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+    // SAFETY: a prefetch reads nothing that a program can see.
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(at) };
+}
+
+/// There is no stable intrinsic for it.
+#[cfg(target_arch = "aarch64")]
+#[inline(always)]
+fn prefetch(at: *const i8) {
+    // SAFETY: as on x86-64.
+    unsafe {
+        std::arch::asm!(
+            "prfm pldl1keep, [{}]",
+            in(reg) at,
+            options(readonly, nostack, preserves_flags),
+        );
+    }
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline(always)]
+fn prefetch(_: *const i8) {}
 
 const _: () = assert!(FLIGHT <= 32);

@@ -7,10 +7,18 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+#[cfg(any(target_arch = "aarch64", debug_assertions))]
+mod fours;
 mod portable;
+#[cfg(test)]
+mod tests;
 
 use super::super::node::Child;
 
+#[cfg(target_arch = "aarch64")]
+pub(crate) use fours::Neon;
+#[cfg(debug_assertions)]
+pub(crate) use fours::NeonTwin;
 pub(crate) use portable::Portable;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use {avx2::Avx2, avx512::Avx512};
@@ -186,8 +194,16 @@ pub(crate) trait WideLanes<L>: Copy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Level {
+    /// What stands in for [`Neon`](Self::Neon) where tests run: the same lanes, each instruction
+    /// spelled out. Slower than [`Scalar`](Self::Scalar), and not in release builds.
+    #[doc(hidden)]
+    #[cfg(debug_assertions)]
+    NeonTwin,
     /// What every processor has.
     Scalar,
+    /// AArch64 with NEON.
+    #[cfg(target_arch = "aarch64")]
+    Neon,
     /// x86-64 with AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     Avx2,
@@ -206,7 +222,19 @@ impl Level {
     /// All that this machine has, the best one last.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        let mut levels = vec![Self::Scalar];
+        #[cfg_attr(
+            not(any(target_arch = "x86_64", target_arch = "aarch64")),
+            expect(unused_mut, reason = "other processors have the plain level only")
+        )]
+        let mut levels = Vec::from([
+            #[cfg(debug_assertions)]
+            Self::NeonTwin,
+            Self::Scalar,
+        ]);
+        #[cfg(target_arch = "aarch64")]
+        if std::arch::is_aarch64_feature_detected!("neon") {
+            levels.push(Self::Neon);
+        }
         #[cfg(target_arch = "x86_64")]
         {
             let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
