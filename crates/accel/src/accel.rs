@@ -1,8 +1,11 @@
 //! A structure over primitives: what answers queries.
 
+use std::path::Path;
+
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 use rayon::prelude::*;
 
+use crate::bvh8::file::StructureFileError;
 use crate::bvh8::{Bvh8, Item, Level};
 use crate::search::Search;
 use crate::{
@@ -69,6 +72,44 @@ impl<P: Primitives> Accel<P> {
             reach,
             bounds,
         }
+    }
+
+    /// Of a structure that was built before. No primitive is endless.
+    pub(crate) const fn of_parts(
+        primitives: P,
+        structure: AnyStructure,
+        reach: Reach,
+        bounds: Aabb,
+    ) -> Self {
+        Self {
+            primitives,
+            structure,
+            unbounded: Vec::new(),
+            reach,
+            bounds,
+        }
+    }
+
+    /// Saves the structure with all that it traces, for [`TriangleTree`](crate::TriangleTree) to
+    /// load: a `bvh8` over triangles that are tested by the watertight test. The file is written
+    /// beside the path and renamed when it is whole.
+    ///
+    /// # Errors
+    /// When it is another structure, or over something else, or the file cannot be written; what was
+    /// at the path before is still there then.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StructureFileError> {
+        let path = path.as_ref();
+        let saved = match &self.structure {
+            AnyStructure::Bvh8(bvh) => {
+                let triangles = self.primitives.len() as u32;
+                bvh.tree.save(path, self.bounds, triangles)
+            }
+            _ => None,
+        };
+        saved.unwrap_or_else(|| {
+            let (path, kind) = (path.to_owned(), self.structure.kind());
+            Err(StructureFileError::NotSaved { path, kind })
+        })
     }
 
     /// The primitives.

@@ -58,6 +58,12 @@ macro_rules! structures {
         }
 
         impl AnyStructure {
+            /// Which one it is.
+            #[must_use]
+            pub const fn kind(&self) -> StructureKind {
+                match self { $(Self::$variant(_) => StructureKind::$variant,)* }
+            }
+
             /// Bytes held on the heap.
             #[must_use]
             pub fn bytes(&self) -> usize {

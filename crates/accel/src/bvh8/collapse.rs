@@ -2,14 +2,26 @@
 
 use super::build::BinaryTree;
 use super::node::{Child, Node, WIDTH};
+use super::store::Store;
 
 /// A wide tree whose leaves name lists of primitives.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct WideTree {
+pub(crate) struct WideTree<N = Vec<Node>> {
     pub(crate) root: Child,
-    pub(crate) nodes: Vec<Node>,
+    pub(crate) nodes: N,
     /// How many levels of nodes there are.
     pub(crate) depth: usize,
+}
+
+impl WideTree {
+    /// As it is traced.
+    pub(crate) fn stored(self) -> WideTree<Store<Node>> {
+        WideTree {
+            root: self.root,
+            nodes: self.nodes.into(),
+            depth: self.depth,
+        }
+    }
 }
 
 /// Collapses a binary tree: a node takes in its children, then again and again the children of that

@@ -6,15 +6,21 @@
 //! 2. nodes take in what is below them until they have eight children (`collapse`, `node`);
 //! 3. if the primitives are triangles they are copied into the leaves (`quad`).
 //!
+//! Such a tree over triangles is a file too, all in itself (`file`, `places`), and traced where the file lies in memory
+//! (`store`).
+//!
 //! Rays walk down it in one of two ways: a kernel for triangles in single precision at the best
 //! level of instructions that the machine has (`kernel`), and a plain walk for everything else (`traverse`): any primitive, and rays that are
 //! to be traced in double precision.
 
 mod build;
 mod collapse;
+pub(crate) mod file;
 mod kernel;
 mod node;
+pub(crate) mod places;
 mod quad;
+mod store;
 mod traverse;
 
 use std::marker::PhantomData;
@@ -26,8 +32,9 @@ use crate::{AnyHit, Bounded, Candidate, Counter, Reach, Structure, TraversalRay,
 pub(crate) use build::item::Item;
 use collapse::WideTree;
 use kernel::{Found, Near, SingleRay, Tree};
-use node::Child;
+use node::{Child, Node};
 use quad::Quad;
+use store::Store;
 
 pub use kernel::Level;
 
@@ -49,7 +56,7 @@ pub struct Bvh8<C = Balanced> {
 /// The tree itself, however it was built.
 #[derive(Clone, Debug)]
 pub(crate) struct Wide {
-    tree: WideTree,
+    tree: WideTree<Store<Node>>,
     leaves: Leaves,
     near: Near,
     pub(crate) level: Level,
@@ -60,8 +67,10 @@ pub(crate) struct Wide {
 enum Leaves {
     /// Primitives by number.
     Lists(Vec<u32>),
-    /// Triangles.
-    Quads(Vec<Quad>),
+    /// Triangles, shown to a plain walk by their numbers.
+    Quads(Store<Quad>),
+    /// Triangles, shown to a plain walk by their places.
+    Places(Store<Quad>),
 }
 
 impl<C: Care> Bvh8<C> {
@@ -75,15 +84,10 @@ impl<C: Care> Bvh8<C> {
         drop(binary);
         let leaves = match mesh {
             None => Leaves::Lists(list),
-            Some(mesh) => Leaves::Quads(pack(&mut tree, &list, mesh)),
+            Some(mesh) => Leaves::Quads(pack(&mut tree, &list, mesh).into()),
         };
         Self {
-            tree: Wide {
-                tree,
-                leaves,
-                near: Near::new(reach),
-                level: Level::detect(),
-            },
+            tree: Wide::new(tree.stored(), leaves, reach),
             care: PhantomData,
         }
     }
@@ -121,19 +125,29 @@ impl<C: Care> Structure for Bvh8<C> {
     fn bytes(&self) -> usize {
         let leaves = match &self.tree.leaves {
             Leaves::Lists(list) => size_of_val(list.as_slice()),
-            Leaves::Quads(quads) => size_of_val(quads.as_slice()),
+            Leaves::Quads(quads) | Leaves::Places(quads) => size_of_val(&**quads),
         };
-        size_of_val(self.tree.tree.nodes.as_slice()) + leaves
+        size_of_val(&*self.tree.tree.nodes) + leaves
     }
 }
 
 impl Wide {
+    /// With the best level of this machine.
+    fn new(tree: WideTree<Store<Node>>, leaves: Leaves, reach: &Reach) -> Self {
+        Self {
+            tree,
+            leaves,
+            near: Near::new(reach),
+            level: Level::detect(),
+        }
+    }
+
     /// The parts that the kernels need, if leaves hold triangles.
     #[inline(always)]
     fn triangles(&self) -> Option<Tree<'_>> {
         match &self.leaves {
             Leaves::Lists(_) => None,
-            Leaves::Quads(quads) => Some(Tree {
+            Leaves::Quads(quads) | Leaves::Places(quads) => Some(Tree {
                 root: self.tree.root,
                 nodes: &self.tree.nodes,
                 quads,

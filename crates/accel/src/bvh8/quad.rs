@@ -1,6 +1,10 @@
 //! The triangles of leaves, side by side as the kernel wants them.
 
+use bytemuck::{Pod, Zeroable};
 use ombra_geometry::TriangleMesh;
+
+/// Ten components of four triangles.
+pub(crate) const NUMBERS: usize = 40;
 
 /// Four triangles, component by component: `numbers[4 c + k]` is component `c` of triangle `k`.
 /// Components 0 to 8 are the three corners' x, y and z, component 9 is the number of the triangle
@@ -8,20 +12,17 @@ use ombra_geometry::TriangleMesh;
 /// component, `numbers[8 c + k]`.
 ///
 /// A place without a triangle has NaN corners: no test says that a ray crosses it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(crate) struct Quad {
-    pub(crate) numbers: [f32; Self::NUMBERS],
+    pub(crate) numbers: [f32; NUMBERS],
 }
 
 const _: () = assert!(size_of::<Quad>() == 160);
 
 impl Quad {
-    /// Components of a triangle.
-    pub(crate) const COMPONENTS: usize = 10;
-    const NUMBERS: usize = 4 * Self::COMPONENTS;
     const EMPTY: Self = Self {
-        numbers: [f32::NAN; Self::NUMBERS],
+        numbers: [f32::NAN; NUMBERS],
     };
 
     /// Appends the quads of a leaf, one or two, and says whether they are two.
@@ -31,8 +32,8 @@ impl Quad {
         let first = quads.len();
         quads.resize(first + stride / 4, Self::EMPTY);
         let mut put = |place: usize, number: f32| {
-            let at = place / Self::NUMBERS;
-            quads[first + at].numbers[place % Self::NUMBERS] = number;
+            let at = place / NUMBERS;
+            quads[first + at].numbers[place % NUMBERS] = number;
         };
         for (k, &triangle) in triangles.iter().enumerate() {
             for (corner, point) in mesh.corners(triangle as usize).into_iter().enumerate() {

@@ -6,6 +6,7 @@ use arrayvec::ArrayVec;
 
 use super::kernel::STACK;
 use super::node::{Child, WIDTH};
+use super::places::places;
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
@@ -45,6 +46,7 @@ impl Wide {
     fn leaf<V: Visitor>(&self, leaf: Child, visitor: &mut V) -> ControlFlow<()> {
         match &self.leaves {
             Leaves::Lists(list) => visitor.leaf(&list[leaf.range()], Span::ALL),
+            Leaves::Places(_) => visitor.leaf(&places(leaf), Span::ALL),
             Leaves::Quads(quads) => {
                 let places = leaf.places();
                 let numbers = |k: usize| {

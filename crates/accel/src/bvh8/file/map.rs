@@ -1,0 +1,37 @@
+//! A file that is traced where it lies.
+#![expect(
+    unsafe_code,
+    reason = "nobody can promise for the operating system that a mapped file stays as it is"
+)]
+
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+
+use memmap2::Mmap;
+
+use super::super::store::Store;
+use super::fault::StructureFileError;
+use super::header::{HEADER, Header};
+use super::read::{Loaded, content};
+
+impl Loaded {
+    /// Maps a file.
+    ///
+    /// # Safety
+    /// - Nobody changes the file, nor makes it shorter, as long as anything of it lives.
+    pub(crate) unsafe fn map(path: &Path) -> Result<Self, StructureFileError> {
+        let io = |action| move |source| StructureFileError::io(path, action, source);
+        let file = File::open(path).map_err(io("opened"))?;
+        // SAFETY: the caller's promise.
+        let map = unsafe { Mmap::map(&file) }.map_err(io("mapped"))?;
+        let start = &map[..map.len().min(HEADER)];
+        let header = Header::read(start, map.len() as u64).map_err(content(path))?;
+        let map = Arc::new(map);
+        // Whole lists at multiples of 64, as the header was asked; maps begin at whole pages.
+        let quads = header.quads_begin() as usize;
+        let nodes = Store::mapped(&map, HEADER..quads);
+        let quads = Store::mapped(&map, quads..map.len());
+        Self::new(&header, nodes, quads).map_err(content(path))
+    }
+}

@@ -1,0 +1,64 @@
+//! Where nodes and triangles lie: in memory of their own, or in a file that is mapped.
+
+use std::marker::PhantomData;
+use std::ops::{Deref, Range};
+use std::sync::Arc;
+
+use bytemuck::Pod;
+use memmap2::Mmap;
+
+/// A list that is read in the same way wherever it lies.
+#[derive(Clone, Debug)]
+pub(crate) enum Store<T> {
+    Owned(Vec<T>),
+    /// Memory that several parts of a structure look at.
+    Shared(Arc<Vec<T>>),
+    Mapped(Mapped<T>),
+}
+
+/// A part of a mapped file.
+#[derive(Clone, Debug)]
+pub(crate) struct Mapped<T> {
+    map: Arc<Mmap>,
+    bytes: Range<usize>,
+    holds: PhantomData<T>,
+}
+
+impl<T: Pod> Store<T> {
+    /// A list that is not copied when this is cloned.
+    pub(crate) fn shared(list: Vec<T>) -> Self {
+        Self::Shared(Arc::new(list))
+    }
+
+    /// The list in some bytes of a mapped file.
+    ///
+    /// # Panics
+    /// When the bytes are not there, or not a whole number of entries, or not aligned.
+    pub(crate) fn mapped(map: &Arc<Mmap>, bytes: Range<usize>) -> Self {
+        let _: &[T] = bytemuck::cast_slice(&map[bytes.clone()]);
+        Self::Mapped(Mapped {
+            map: Arc::clone(map),
+            bytes,
+            holds: PhantomData,
+        })
+    }
+}
+
+impl<T> From<Vec<T>> for Store<T> {
+    fn from(list: Vec<T>) -> Self {
+        Self::Owned(list)
+    }
+}
+
+impl<T: Pod> Deref for Store<T> {
+    type Target = [T];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        match self {
+            Self::Owned(list) => list,
+            Self::Shared(list) => list,
+            Self::Mapped(part) => bytemuck::cast_slice(&part.map[part.bytes.clone()]),
+        }
+    }
+}
