@@ -1,4 +1,4 @@
-//! Where nodes and triangles lie: in memory of their own, or in a file that is mapped.
+//! Where nodes and triangles lie: in lists of their own, or in a file in memory.
 
 use std::marker::PhantomData;
 use std::ops::{Deref, Range};
@@ -11,12 +11,10 @@ use memmap2::Mmap;
 #[derive(Clone, Debug)]
 pub(crate) enum Store<T> {
     Owned(Vec<T>),
-    /// Memory that several parts of a structure look at.
-    Shared(Arc<Vec<T>>),
     Mapped(Mapped<T>),
 }
 
-/// A part of a mapped file.
+/// A part of a file: one that is mapped, or pages of memory that it was read into.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<T> {
     map: Arc<Mmap>,
@@ -25,12 +23,7 @@ pub(crate) struct Mapped<T> {
 }
 
 impl<T: Pod> Store<T> {
-    /// A list that is not copied when this is cloned.
-    pub(crate) fn shared(list: Vec<T>) -> Self {
-        Self::Shared(Arc::new(list))
-    }
-
-    /// The list in some bytes of a mapped file.
+    /// The list in some bytes of a file. It is not copied when this is cloned.
     ///
     /// # Panics
     /// When the bytes are not there, or not a whole number of entries, or not aligned.
@@ -57,7 +50,6 @@ impl<T: Pod> Deref for Store<T> {
     fn deref(&self) -> &[T] {
         match self {
             Self::Owned(list) => list,
-            Self::Shared(list) => list,
             Self::Mapped(part) => bytemuck::cast_slice(&part.map[part.bytes.clone()]),
         }
     }

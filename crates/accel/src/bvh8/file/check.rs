@@ -9,7 +9,7 @@
 //! Nothing here follows a path down the tree: each part is one pass over lists, for several threads
 //! but for `links`.
 
-use ombra_geometry::{Aabb, Point3};
+use ombra_geometry::Aabb;
 use rayon::prelude::*;
 
 use super::super::node::{Child, Node, WIDTH};
@@ -115,22 +115,26 @@ impl Content<'_> {
                 return Err(here(StructureFault::Order(octant)));
             }
         }
+        let (bad, not_none) = boxes(node);
         for (k, &child) in node.child.iter().enumerate() {
-            self.child(index, child, &node.bounds(k)).map_err(here)?;
+            if child == Child::NONE && not_none[k] == 0 {
+                continue;
+            }
+            if bad[k] != 0 {
+                return Err(here(StructureFault::Box));
+            }
+            let checked = if child.is_leaf() {
+                self.leaf(child)
+            } else {
+                self.inner(index, child, &node.bounds(k))
+            };
+            checked.map_err(here)?;
         }
         Ok(())
     }
 
-    fn child(&self, parent: usize, child: Child, bounds: &Aabb) -> Result<(), StructureFault> {
-        if child == Child::NONE && *bounds == Aabb::EMPTY {
-            return Ok(());
-        }
-        if bounds.is_empty() || !bounds.is_finite() {
-            return Err(StructureFault::Box);
-        }
-        if child.is_leaf() {
-            return self.leaf(child);
-        }
+    /// A child that is a node.
+    fn inner(&self, parent: usize, child: Child, bounds: &Aabb) -> Result<(), StructureFault> {
         // The kernels find nodes by this very number.
         let index = child.index();
         if child.0 % 8 != 0 {
@@ -174,35 +178,70 @@ fn missing(part: Part, index: usize, count: usize) -> StructureFault {
 /// Which place of a leaf with N of them holds neither a triangle nor none.
 fn places<const N: usize>(numbers: &[f32], triangles: u32) -> Option<usize> {
     let row = |c: usize| numbers[N * c..].first_chunk::<N>().expect("ten rows");
-    let (mut finite, mut nan) = ([true; N], [true; N]);
+    // Numbers as bits without their sign, and words in place of yes and no: all places of a row go
+    // through four instructions.
+    const INFINITE: i32 = f32::INFINITY.to_bits().cast_signed();
+    let (mut not_finite, mut not_nan) = ([0_u32; N], [0_u32; N]);
     for c in 0..9 {
         let row = row(c);
         for k in 0..N {
-            finite[k] &= row[k].is_finite();
-            nan[k] &= row[k].is_nan();
+            let size = (row[k].to_bits() & !(1 << 31)).cast_signed();
+            not_finite[k] |= u32::from(size >= INFINITE);
+            not_nan[k] |= u32::from(size <= INFINITE);
         }
     }
     let number = row(9).map(f32::to_bits);
     (0..N).find(|&k| {
-        let is_triangle = finite[k] & (number[k] < triangles);
-        let is_none = nan[k] & (number[k] == u32::MAX);
+        let is_triangle = (not_finite[k] == 0) & (number[k] < triangles);
+        let is_none = (not_nan[k] == 0) & (number[k] == u32::MAX);
         !(is_triangle | is_none)
     })
 }
 
+/// Which boxes of a node are not finite, or upside down; and which are not the one around nothing.
+fn boxes(node: &Node) -> ([u32; WIDTH], [u32; WIDTH]) {
+    let (mut bad, mut not_none) = ([0; WIDTH], [0; WIDTH]);
+    for axis in 0..3 {
+        for k in 0..WIDTH {
+            let (lower, upper) = (node.lower[axis][k], node.upper[axis][k]);
+            // What is NaN fails too.
+            bad[k] |= u32::from(!(lower >= f32::MIN))
+                | u32::from(!(lower <= upper))
+                | u32::from(!(upper <= f32::MAX));
+            not_none[k] |= lower.to_bits() ^ f32::INFINITY.to_bits();
+            not_none[k] |= upper.to_bits() ^ f32::NEG_INFINITY.to_bits();
+        }
+    }
+    (bad, not_none)
+}
+
 /// Whether all boxes of a node lie in one.
 fn is_within(node: &Node, bounds: &Aabb) -> bool {
-    let least = |row: &[f32; WIDTH]| row.iter().fold(f32::INFINITY, |a, &b| a.min(b));
-    let most = |row: &[f32; WIDTH]| row.iter().fold(f32::NEG_INFINITY, |a, &b| a.max(b));
-    let lower = Point3::from(node.lower.each_ref().map(least));
-    let upper = Point3::from(node.upper.each_ref().map(most));
     let (min, max) = (bounds.min.to_array(), bounds.max.to_array());
-    let (lower, upper) = (lower.to_array(), upper.to_array());
-    (0..3).all(|k| min[k] <= lower[k] && upper[k] <= max[k])
+    let mut outside = [0; WIDTH];
+    for axis in 0..3 {
+        for k in 0..WIDTH {
+            let (lower, upper) = (node.lower[axis][k], node.upper[axis][k]);
+            outside[k] |= u32::from(!(lower >= min[axis])) | u32::from(!(upper <= max[axis]));
+        }
+    }
+    outside == [0; WIDTH]
 }
 
 /// Whether a word names each of eight children once.
 fn names_all(order: u32) -> bool {
-    let named = (0..WIDTH).fold(0, |named, k| named | 1_u32 << (order >> (3 * k) & 7));
-    named == 255 && order >> 24 == 0
+    let (low, high) = (order & 0xfff, order >> 12);
+    high < 0x1000 && FOUR[low as usize] | FOUR[high as usize] == 255
 }
+
+/// Of four children in twelve bits: which they are, a bit each.
+static FOUR: [u8; 0x1000] = {
+    let mut named = [0; 0x1000];
+    let mut four = 0;
+    while four < named.len() {
+        named[four] =
+            1 << (four & 7) | 1 << (four >> 3 & 7) | 1 << (four >> 6 & 7) | 1 << (four >> 9);
+        four += 1;
+    }
+    named
+};

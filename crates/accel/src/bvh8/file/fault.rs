@@ -80,6 +80,9 @@ impl Part {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StructureFault {
+    /// Read where numbers lie the other way round.
+    #[error("numbers are little-endian here, and those of this machine are big-endian: build anew")]
+    Endian,
     /// Less than a header.
     #[error("the file ends here, within its header of {HEADER} bytes")]
     Short,

@@ -72,6 +72,9 @@ impl Header {
     /// Reads the header of a file of so many bytes: `start` is the first [`HEADER`] of them, or all
     /// if there are fewer.
     pub(super) fn read(start: &[u8], length: u64) -> Result<Self, Found> {
+        if cfg!(target_endian = "big") {
+            return Err((0, StructureFault::Endian));
+        }
         let magic = start.len().min(MAGIC.len());
         // A file that is cut is told from one of another kind.
         if start[..magic] != MAGIC[..magic] || magic == 0 {

@@ -6,11 +6,9 @@
 
 use std::fs::File;
 use std::path::Path;
-use std::sync::Arc;
 
 use memmap2::Mmap;
 
-use super::super::store::Store;
 use super::fault::StructureFileError;
 use super::header::{HEADER, Header};
 use super::read::{Loaded, content};
@@ -27,11 +25,6 @@ impl Loaded {
         let map = unsafe { Mmap::map(&file) }.map_err(io("mapped"))?;
         let start = &map[..map.len().min(HEADER)];
         let header = Header::read(start, map.len() as u64).map_err(content(path))?;
-        let map = Arc::new(map);
-        // Whole lists at multiples of 64, as the header was asked; maps begin at whole pages.
-        let quads = header.quads_begin() as usize;
-        let nodes = Store::mapped(&map, HEADER..quads);
-        let quads = Store::mapped(&map, quads..map.len());
-        Self::new(&header, nodes, quads).map_err(content(path))
+        Self::of_map(&header, map).map_err(content(path))
     }
 }
