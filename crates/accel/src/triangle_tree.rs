@@ -20,7 +20,7 @@ use crate::{
 ///
 /// A file comes from anywhere. It is found to be whole before anything is traced, so that whatever
 /// it holds, nothing is read outside of it; and it has checksums against damage.
-/// [docs/structure-file.md](../../../docs/structure-file.md) says what each byte means.
+/// `docs/structure-file.md` says what each byte means.
 #[derive(Clone, Debug)]
 pub struct TriangleTree(Accel<Places>);
 

@@ -193,7 +193,7 @@ fn a_cycle_a_second_parent_and_a_lost_part_are_refused() {
     let was = word(&file(), leaf);
     let odd = fault(|file| put(file, leaf, was + 1));
     assert!(matches!(odd.1, Fault::Child(_)));
-    let far = fault(|file| put(file, leaf, 1 << 31 | 5 * 100_000));
+    let far = fault(|file| put(file, leaf, (1 << 31) | (5 * 100_000)));
     assert!(matches!(
         far.1,
         Fault::Missing {

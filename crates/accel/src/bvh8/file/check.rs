@@ -137,7 +137,7 @@ impl Content<'_> {
     fn inner(&self, parent: usize, child: Child, bounds: &Aabb) -> Result<(), StructureFault> {
         // The kernels find nodes by this very number.
         let index = child.index();
-        if child.0 % 8 != 0 {
+        if !child.0.is_multiple_of(8) {
             return Err(StructureFault::Child(child.0));
         }
         if index <= parent {
@@ -220,9 +220,9 @@ fn is_within(node: &Node, bounds: &Aabb) -> bool {
     let (min, max) = (bounds.min.to_array(), bounds.max.to_array());
     let mut outside = [0; WIDTH];
     for axis in 0..3 {
-        for k in 0..WIDTH {
+        for (k, outside) in outside.iter_mut().enumerate() {
             let (lower, upper) = (node.lower[axis][k], node.upper[axis][k]);
-            outside[k] |= u32::from(!(lower >= min[axis])) | u32::from(!(upper <= max[axis]));
+            *outside |= u32::from(!(lower >= min[axis])) | u32::from(!(upper <= max[axis]));
         }
     }
     outside == [0; WIDTH]

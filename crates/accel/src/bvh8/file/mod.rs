@@ -1,5 +1,4 @@
-//! A tree of triangles as a file. [docs/structure-file.md](../../../../../docs/structure-file.md) says
-//! what each byte means.
+//! A tree of triangles as a file. `docs/structure-file.md` says what each byte means.
 //!
 //! A file is what lies in memory: a header, the nodes, the triangles of the leaves. Nothing is
 //! converted, so that a file can be traced where it lies. Kernels read a tree without asking whether
