@@ -88,6 +88,7 @@ const TABLE: &[Row] = &[
     built("ombra-formats", Floor::Files, Wing::Trunk),
     built("ombra", Floor::Facade, Wing::Trunk),
     built("ombra-bench", Floor::Measures, Wing::Trunk),
+    built("ombra-study", Floor::Measures, Wing::Trunk),
     built("ombra-cli", Floor::Outlets, Wing::Trunk),
     planned("ombra-server", Floor::Outlets, Wing::Trunk),
     planned("ombra-python", Floor::Outlets, Wing::Trunk),

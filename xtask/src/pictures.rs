@@ -24,6 +24,9 @@ const MOST_BYTES: u64 = 150_000;
 /// What a check renders instead of a page's size and samples.
 const SMALL: [(&str, &str); 2] = [("--size", "64x48"), ("--spp", "1")];
 
+/// What a check adds besides.
+const SMALLER: &str = "--smoke";
+
 /// Options that name a place in the picture.
 const PLACES: [&str; 2] = ["--pixel", "--crop"];
 
@@ -212,6 +215,9 @@ fn small(mut words: Vec<String>, takes: impl Fn(&str) -> bool) -> Vec<String> {
             _ => words.extend([flag.to_owned(), value.to_owned()]),
         }
     }
+    if takes(SMALLER) {
+        words.push(SMALLER.to_owned());
+    }
     words
 }
 
@@ -272,7 +278,10 @@ mod tests {
     fn a_small_picture_has_another_size_and_all_else_as_it_was() {
         let page = words("render whitted --size 640x360 -o a.png");
         let all = small(page.clone(), |_| true);
-        assert_eq!(all, words("render whitted --size 64x48 -o a.png --spp 1"));
+        assert_eq!(
+            all,
+            words("render whitted --size 64x48 -o a.png --spp 1 --smoke")
+        );
         assert_eq!(small(page.clone(), |_| false), page);
         let pixel = words("explain cornell --pixel 330,440 --svg a.svg");
         assert_eq!(small(pixel.clone(), |_| true), pixel);

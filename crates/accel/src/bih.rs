@@ -13,7 +13,7 @@
 use std::ops::ControlFlow;
 
 use arrayvec::ArrayVec;
-use ombra_geometry::{Aabb, Axis};
+use ombra_geometry::{Aabb, Axis, Vector3};
 
 use crate::partition::{halve, partition};
 use crate::{Bounded, Reach, Span, Structure, TraversalRay, Visitor};
@@ -84,7 +84,8 @@ impl Structure for Bih {
             return ControlFlow::Continue(());
         }
         let mut waiting = ArrayVec::<(u32, Interval), MAX_DEPTH>::new();
-        let all = ray.clip(&self.bounds.wide(), visitor.t_max());
+        let inverse = ray.inverse_direction();
+        let all = ray.clip(inverse, &self.bounds.wide(), visitor.t_max());
         let mut next = all.map(|[from, to]| (0, Interval { from, to }));
         visitor.node();
         while let Some((index, interval)) = next.take().or_else(|| waiting.pop()) {
@@ -99,12 +100,12 @@ impl Structure for Bih {
                 Node::Slab { axis, clip } => {
                     visitor.node();
                     next = interval
-                        .within(axis, clip, ray)
+                        .within(axis, clip, ray, inverse)
                         .map(|interval| (index + 1, interval));
                 }
                 Node::Inner { axis, right, clip } => {
                     visitor.node();
-                    let parts = interval.cut(axis, clip, ray);
+                    let parts = interval.cut(axis, clip, ray, inverse);
                     let children = [
                         parts[0].map(|i| (index + 1, i)),
                         parts[1].map(|i| (right, i)),
@@ -145,11 +146,17 @@ impl Interval {
 
     /// What lies before the end of the left part and behind the beginning of the right one.
     #[inline]
-    fn cut(self, axis: Axis, clip: [f32; 2], ray: &TraversalRay) -> [Option<Self>; 2] {
+    fn cut(
+        self,
+        axis: Axis,
+        clip: [f32; 2],
+        ray: &TraversalRay,
+        inverse: Vector3<f64>,
+    ) -> [Option<Self>; 2] {
         let origin = ray.box_origin[axis];
         let to_left = f64::from(clip[0]) + ray.box_pad - origin;
         let to_right = f64::from(clip[1]) - ray.box_pad - origin;
-        let inverse = ray.inverse_direction[axis];
+        let inverse = inverse[axis];
         let Self { from, to } = self;
         if inverse.is_infinite() {
             // Along the planes: on the right side of each or not.
@@ -171,12 +178,19 @@ impl Interval {
             ]
         }
     }
+
     /// What lies between two planes.
     #[inline]
-    fn within(self, axis: Axis, [lower, upper]: [f32; 2], ray: &TraversalRay) -> Option<Self> {
+    fn within(
+        self,
+        axis: Axis,
+        [lower, upper]: [f32; 2],
+        ray: &TraversalRay,
+        inverse: Vector3<f64>,
+    ) -> Option<Self> {
         // Before the upper one, and of that what is behind the lower one.
-        let [before, _] = self.cut(axis, [upper, lower], ray);
-        let [_, behind] = before?.cut(axis, [upper, lower], ray);
+        let [before, _] = self.cut(axis, [upper, lower], ray, inverse);
+        let [_, behind] = before?.cut(axis, [upper, lower], ray, inverse);
         behind
     }
 }

@@ -93,7 +93,11 @@ impl Root {
         let sane = sane(d.x) && sane(d.y) && sane(d.z);
         if !(near && sane) {
             // Whether it passes by is only known where nothing overflows.
-            if sane && ray.clip(&self.unpadded, visitor.t_max()).is_none() {
+            if sane
+                && ray
+                    .clip(ray.inverse_direction(), &self.unpadded, visitor.t_max())
+                    .is_none()
+            {
                 return ControlFlow::Continue(());
             }
             return visitor.leaf(self.everything(references), Span::ALL);
@@ -135,7 +139,7 @@ impl CellRay {
     #[inline]
     fn new(ray: &TraversalRay, bounds: &Aabb<f64>) -> Option<Self> {
         let direction = ray.ray.direction.to_array();
-        let inverse = ray.inverse_direction.to_array();
+        let inverse = ray.inverse_direction().to_array();
         let mut cut = Self {
             origin: ray.ray.origin.to_vector().to_array(),
             direction,

@@ -5,7 +5,11 @@ use std::sync::Arc;
 
 use ombra_geometry::{Aabb, EdgeRule, GeometryId, InstanceId, Object, Ray, Transform, World};
 
-use crate::{Accel, AnyHit, Candidate, Counter, Primitives, Reach, Traversable as _, TraversalRay};
+use crate::distance::Placed;
+use crate::{
+    Accel, AnyHit, Candidate, Counter, Measured, Nearby, NoDistance, Place, Primitives, Reach,
+    Traversable as _, TraversalRay,
+};
 
 /// One placement of a geometry.
 #[derive(Clone, Debug)]
@@ -14,6 +18,21 @@ pub struct Instance {
     pub geometry: GeometryId,
     /// Where it stands.
     pub world_from_object: Transform<Object, World>,
+    /// What sees it: a query whose mask has a bit in common with this one. A query that names no mask
+    /// has all bits, so nothing sees an instance whose mask is 0.
+    pub mask: u32,
+}
+
+impl Instance {
+    /// Seen by every query.
+    #[must_use]
+    pub const fn new(geometry: GeometryId, world_from_object: Transform<Object, World>) -> Self {
+        Self {
+            geometry,
+            world_from_object,
+            mask: u32::MAX,
+        }
+    }
 }
 
 /// Geometries and their placements: the primitives of the top level.
@@ -39,6 +58,8 @@ pub struct Instances<P> {
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     instance: u32,
+    geometry: GeometryId,
+    mask: u32,
     /// A shape of that instance; otherwise it is all of it.
     shape: Option<u32>,
 }
@@ -74,6 +95,8 @@ impl<P: Primitives> Instances<P> {
                 for shape in 0..shapes.len() as u32 {
                     entries.push(Entry {
                         instance: index,
+                        geometry: instance.geometry,
+                        mask: instance.mask,
                         shape: Some(shape),
                     });
                     let own = shapes.bounds(shape);
@@ -82,6 +105,8 @@ impl<P: Primitives> Instances<P> {
             } else {
                 entries.push(Entry {
                     instance: index,
+                    geometry: instance.geometry,
+                    mask: instance.mask,
                     shape: None,
                 });
                 let own = geometry.bounds();
@@ -109,7 +134,53 @@ impl<P: Primitives> Instances<P> {
         &self.instances
     }
 
+    /// [`Primitives::crossings`] of what a mask sees.
     #[inline]
+    pub(crate) fn crossings_seen<C: Counter, F: FnMut(&Candidate) -> AnyHit>(
+        &self,
+        mask: u32,
+        rule: EdgeRule,
+        (ray, t_max): (&TraversalRay, f64),
+        primitive: u32,
+        counter: &mut C,
+        report: &mut F,
+    ) -> ControlFlow<()> {
+        let entry = self.entries[primitive as usize];
+        if entry.mask & mask == 0 {
+            return ControlFlow::Continue(());
+        }
+        counter.test();
+        let Entry {
+            instance,
+            geometry,
+            shape,
+            ..
+        } = entry;
+        let local = self.local(instance, ray, t_max);
+        let mut terminated = ControlFlow::Continue(());
+        let mut place = |candidate: &Candidate| {
+            let placed = Candidate {
+                geometry,
+                instance: InstanceId(instance),
+                ..*candidate
+            };
+            let answer = report(&placed);
+            if answer == AnyHit::Terminate {
+                terminated = ControlFlow::Break(());
+            }
+            answer
+        };
+        let accel = &self.geometries[geometry.index()];
+        match (shape, accel.primitives().plain()) {
+            (Some(shape), Some(shapes)) => shapes.test(&local, shape, &mut place),
+            _ => {
+                search_below(accel, &local, rule, counter, &mut place);
+                terminated
+            }
+        }
+    }
+
+    #[inline(always)]
     fn local(&self, instance: u32, ray: &TraversalRay, t_max: f64) -> Ray<f64> {
         let mut local = match &self.object_from_world[instance as usize] {
             None => ray.ray,
@@ -118,6 +189,18 @@ impl<P: Primitives> Instances<P> {
         local.t_max = t_max;
         local
     }
+}
+
+/// A search in a geometry. It takes a stack of its own, which shapes are spared.
+#[inline(never)]
+fn search_below<P: Primitives, C: Counter>(
+    accel: &Accel<P>,
+    ray: &Ray<f64>,
+    rule: EdgeRule,
+    counter: &mut C,
+    any_hit: &mut dyn FnMut(&Candidate) -> AnyHit,
+) {
+    accel.search_with(ray, rule, counter, any_hit);
 }
 
 impl<P: Primitives> Primitives for Instances<P> {
@@ -145,31 +228,7 @@ impl<P: Primitives> Primitives for Instances<P> {
         counter: &mut C,
         report: &mut F,
     ) -> ControlFlow<()> {
-        counter.test();
-        let Entry { instance, shape } = self.entries[primitive as usize];
-        let geometry = self.instances[instance as usize].geometry;
-        let local = self.local(instance, ray, t_max);
-        let mut terminated = ControlFlow::Continue(());
-        let mut place = |candidate: &Candidate| {
-            let placed = Candidate {
-                geometry,
-                instance: InstanceId(instance),
-                ..*candidate
-            };
-            let answer = report(&placed);
-            if answer == AnyHit::Terminate {
-                terminated = ControlFlow::Break(());
-            }
-            answer
-        };
-        let accel = &self.geometries[geometry.index()];
-        match (shape, accel.primitives().plain()) {
-            (Some(shape), Some(shapes)) => shapes.test(&local, shape, &mut place),
-            _ => {
-                accel.search_with(&local, *rule, counter, &mut place);
-                terminated
-            }
-        }
+        self.crossings_seen(u32::MAX, *rule, (ray, t_max), primitive, counter, report)
     }
 
     fn bytes(&self) -> usize {
@@ -178,6 +237,42 @@ impl<P: Primitives> Primitives for Instances<P> {
             + size_of_val(self.object_from_world.as_slice())
             + size_of_val(self.entries.as_slice())
             + size_of_val(self.bounds.as_slice())
+    }
+}
+
+impl<P: Measured> Measured for Instances<P> {
+    fn check(&self, placed: Option<&Transform<Object, World>>) -> Result<(), NoDistance> {
+        if placed.is_some() {
+            return Err(NoDistance::Nested);
+        }
+        for (index, own) in (0..).zip(&self.instances) {
+            let below = self.geometries[own.geometry.index()].primitives();
+            let placed = (!own.world_from_object.is_identity()).then_some(&own.world_from_object);
+            below.check(placed).map_err(|reason| reason.at(index))?;
+        }
+        Ok(())
+    }
+
+    fn measure(&self, primitive: u32, place: &Place<'_>, nearby: &mut Nearby) -> ControlFlow<()> {
+        let Entry {
+            instance, shape, ..
+        } = self.entries[primitive as usize];
+        let own = &self.instances[instance as usize];
+        if !nearby.sees(own.mask) {
+            return ControlFlow::Continue(());
+        }
+        let back = self.object_from_world[instance as usize].as_ref();
+        let place = Place {
+            placed: back.map(|back| Placed::new(&own.world_from_object, back)),
+            geometry: own.geometry,
+            instance: InstanceId(instance),
+            ..*place
+        };
+        let accel = &self.geometries[own.geometry.index()];
+        match shape {
+            Some(shape) => accel.primitives().measure(shape, &place, nearby),
+            None => accel.measure(&place, nearby),
+        }
     }
 }
 

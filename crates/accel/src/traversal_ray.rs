@@ -111,7 +111,7 @@ impl Reach {
     /// Whether a point is so far away that the structure is small from there.
     #[inline]
     fn is_far_from(&self, point: Point3<f64>) -> bool {
-        (point - self.centre).max_norm() > FAR * self.extent
+        largest(point - self.centre) > FAR * self.extent
     }
 }
 
@@ -120,8 +120,6 @@ impl Reach {
 pub struct TraversalRay {
     /// The ray.
     pub ray: Ray<f64>,
-    /// One over each component of the direction; ±∞ where that is 0.
-    pub inverse_direction: Vector3<f64>,
     /// A hit counts if its point lies within its primitive's box padded by this.
     pub hit_pad: f64,
     /// Where structures that test boxes start from: the ray's origin or, if that is far away, the
@@ -148,7 +146,6 @@ impl TraversalRay {
         if !ray.is_valid() {
             return None;
         }
-        let d = ray.direction;
         let farthest = farthest_corner(ray.origin, &reach.bounds);
         let is_far = reach.is_far_from(ray.origin);
         let (box_start, box_origin, from_there) = if is_far {
@@ -162,7 +159,6 @@ impl TraversalRay {
         let box_pad = hit_pad + PAD_IN_DOUBLE * (farthest + from_there + reach.coordinate);
         Some(Self {
             ray: *ray,
-            inverse_direction: Vector3::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z),
             hit_pad,
             box_origin,
             box_start,
@@ -172,6 +168,14 @@ impl TraversalRay {
             extent: reach.extent,
             is_far,
         })
+    }
+
+    /// One over each component of the direction; ±∞ where that is 0.
+    #[must_use]
+    #[inline]
+    pub fn inverse_direction(&self) -> Vector3<f64> {
+        let d = self.ray.direction;
+        Vector3::new(1.0 / d.x, 1.0 / d.y, 1.0 / d.z)
     }
 
     /// Whether tests of primitives may use single precision: the structure is near, the origin is a
@@ -192,15 +196,21 @@ impl TraversalRay {
     }
 
     /// The part of the ray up to `t_max` within a box that is padded by `box_pad`, its t counted
-    /// from `box_start`; `None` if there is none.
+    /// from `box_start`; `None` if there is none. `inverse` is the
+    /// [`inverse_direction`](Self::inverse_direction).
     #[inline]
-    pub(crate) fn clip(&self, bounds: &Aabb<f64>, t_max: f64) -> Option<[f64; 2]> {
+    pub(crate) fn clip(
+        &self,
+        inverse: Vector3<f64>,
+        bounds: &Aabb<f64>,
+        t_max: f64,
+    ) -> Option<[f64; 2]> {
         let (mut from, mut to) = (self.ray.t_min - self.box_start, t_max - self.box_start);
         for axis in Axis::ALL {
             let origin = self.box_origin[axis];
             let lower = bounds.min[axis] - self.box_pad - origin;
             let upper = bounds.max[axis] + self.box_pad - origin;
-            let inverse = self.inverse_direction[axis];
+            let inverse = inverse[axis];
             if !inverse.is_infinite() {
                 let (a, b) = (lower * inverse, upper * inverse);
                 from = from.max(a.min(b));
@@ -233,9 +243,19 @@ fn nearest_to(ray: &Ray<f64>, bounds: &Aabb<f64>) -> (f64, Point3<f64>, f64) {
 /// The distance to the farthest corner of a box, in the maximum norm.
 #[inline]
 fn farthest_corner(from: Point3<f64>, bounds: &Aabb<f64>) -> f64 {
-    (from - bounds.min)
-        .max_norm()
-        .max((from - bounds.max).max_norm())
+    largest_of(largest(from - bounds.min), largest(from - bounds.max))
+}
+
+/// The largest component in size, of a vector without NaN.
+#[inline]
+fn largest(v: Vector3<f64>) -> f64 {
+    largest_of(largest_of(v.x.abs(), v.y.abs()), v.z.abs())
+}
+
+/// The larger of two numbers that are not NaN: unlike `max`, one instruction.
+#[inline]
+fn largest_of(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 #[cfg(test)]

@@ -308,13 +308,13 @@ fn instances_give_the_same_answers() {
     let lower = Arc::new(Accel::build(geometry.clone(), StructureKind::KdStack));
     let mut numbers = Numbers(13);
     let instances = (0..40)
-        .map(|i| Instance {
-            geometry: GeometryId(0),
-            world_from_object: if i == 0 {
+        .map(|i| {
+            let place = if i == 0 {
                 Transform::identity()
             } else {
                 Transform::translation((numbers.vector() * 4.0).wide())
-            },
+            };
+            Instance::new(GeometryId(0), place)
         })
         .collect();
     let placed = Instances::new(vec![lower], instances);

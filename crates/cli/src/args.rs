@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::commands::bench::BenchArgs;
 use crate::commands::explain::ExplainArgs;
+use crate::commands::study::StudyArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
 use ombra::geometry::triangle::TriangleTest;
@@ -25,6 +26,8 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// Rasterize and ray trace a scene, and compare the two loops
     Compare(Box<CompareArgs>),
+    /// Compare all acceleration structures: building, memory, steps, speed
+    Study(Box<StudyArgs>),
     /// The minimal ray tracing contest of 1987: its scenes, its format, its rules
     #[command(subcommand)]
     Minray(MinrayCommand),

@@ -19,18 +19,7 @@ pub(crate) struct Display {
 
 impl Display {
     pub(crate) fn new(shown: bool) -> Self {
-        let target = if shown {
-            ProgressDrawTarget::stderr_with_hz(10)
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(Some(0), target);
-        let style = ProgressStyle::with_template(
-            "{prefix}{wide_bar:.cyan/blue} {percent:>3} %  {msg}  {eta} left",
-        );
-        if let Ok(style) = style {
-            bar.set_style(style);
-        }
+        let bar = bar(shown);
         let preview =
             shown && !bar.is_hidden() && console::colors_enabled_stderr() && true_colour();
         Self {
@@ -71,6 +60,45 @@ impl Display {
             let _ = write!(io::stderr(), "{picture}");
         }
     }
+}
+
+/// What a person sees of many jobs. Nothing, where nobody looks.
+pub(crate) struct Jobs {
+    bar: ProgressBar,
+}
+
+impl Jobs {
+    pub(crate) fn new(shown: bool) -> Self {
+        Self { bar: bar(shown) }
+    }
+
+    /// Shows how many jobs are done and what comes next.
+    pub(crate) fn update(&self, done: u64, total: u64, doing: &str) {
+        self.bar.set_length(total);
+        self.bar.set_position(done);
+        self.bar.set_message(doing.to_owned());
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn bar(shown: bool) -> ProgressBar {
+    let target = if shown {
+        ProgressDrawTarget::stderr_with_hz(10)
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    let bar = ProgressBar::with_draw_target(Some(0), target);
+    let style = ProgressStyle::with_template(
+        "{prefix}{wide_bar:.cyan/blue} {percent:>3} %  {msg}  {eta} left",
+    );
+    if let Ok(style) = style {
+        bar.set_style(style);
+    }
+    bar
 }
 
 /// Rays a second, for people.

@@ -55,10 +55,12 @@ impl<T: Real> Ray<T> {
     #[must_use]
     #[inline]
     pub fn is_valid(&self) -> bool {
-        self.origin.is_finite()
-            && self.direction.is_finite()
-            && self.direction.max_norm() > T::zero()
-            && self.t_min <= self.t_max
+        let (o, d, zero) = (self.origin, self.direction, T::zero());
+        // Finite numbers times 0 are 0, others are NaN. Every ray is asked, some more than once.
+        let nothing =
+            (o.x * zero + o.y * zero + o.z * zero) + (d.x * zero + d.y * zero + d.z * zero);
+        let somewhere = (d.x != zero) | (d.y != zero) | (d.z != zero);
+        (nothing == zero) & somewhere & (self.t_min <= self.t_max)
     }
 }
 

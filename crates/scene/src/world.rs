@@ -52,10 +52,7 @@ impl World {
         let instances = scene
             .objects
             .iter()
-            .map(|object| Instance {
-                geometry: object.geometry,
-                world_from_object: object.world_from_object,
-            })
+            .map(|object| Instance::new(object.geometry, object.world_from_object))
             .collect();
         let accel = Accel::build(Instances::new(geometries, instances), kind);
         let finite_bounds = finite_bounds(&scene);

@@ -63,11 +63,11 @@ impl<B: Builder> Structure for Bvh<B> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use ombra_geometry::{Aabb, Point3};
 
-    fn bounded(boxes: impl IntoIterator<Item = Aabb>) -> Vec<Bounded> {
+    pub(crate) fn bounded(boxes: impl IntoIterator<Item = Aabb>) -> Vec<Bounded> {
         (0..)
             .zip(boxes)
             .map(|(primitive, bounds)| Bounded { bounds, primitive })
@@ -83,7 +83,7 @@ mod tests {
     }
 
     /// A fixed sequence of numbers in [0, 1) without a pattern (Steele et al. 2014, SplitMix).
-    fn scattered(count: u32) -> impl Iterator<Item = Aabb> {
+    pub(crate) fn scattered(count: u32) -> impl Iterator<Item = Aabb> {
         let number = |i: u32| {
             let mut z = u64::from(i)
                 .wrapping_add(1)
@@ -95,7 +95,7 @@ mod tests {
         (0..count).map(move |i| cube([3 * i, 3 * i + 1, 3 * i + 2].map(number), 0.003))
     }
 
-    fn hostile() -> Vec<(&'static str, Vec<Bounded>)> {
+    pub(crate) fn hostile() -> Vec<(&'static str, Vec<Bounded>)> {
         let many = 5000;
         let power = |i: i32| 2.0_f32.powi(i);
         vec![

@@ -143,7 +143,7 @@ impl Slabs {
             Lanes::new([above, above, below, below])
         };
         let inverse = |i: f64| Lanes::splat((unit * i).clamp(-LARGE, LARGE) as f32);
-        let (from, way) = (ray.box_origin, ray.inverse_direction);
+        let (from, way) = (ray.box_origin, ray.inverse_direction());
         Self {
             origin: [origin(from.x), origin(from.y), origin(from.z)],
             inverse: [inverse(way.x), inverse(way.y), inverse(way.z)],

@@ -64,7 +64,19 @@ impl Child {
     /// A leaf of triangles.
     pub(crate) fn triangles(quad: usize, eight: bool) -> Self {
         debug_assert!(quad < (1 << 30) / 5, "a quad is found with 30 bits");
-        Self(Self::LEAF | if eight { Self::EIGHT } else { 0 } | 5 * quad as u32)
+        let eight = if eight { Self::EIGHT } else { 0 };
+        Self(Self::LEAF | eight | (5 * quad as u32))
+    }
+
+    /// The same, not of triangles, where so many nodes and so many primitives come before those
+    /// that it counts.
+    pub(crate) fn moved(self, [nodes, primitives]: [usize; 2]) -> Self {
+        if self.is_leaf() {
+            let std::ops::Range { start, end } = self.range();
+            Self::list(start + primitives, end - start)
+        } else {
+            Self::node(self.index() + nodes)
+        }
     }
 
     #[inline(always)]
@@ -105,12 +117,12 @@ impl Child {
 }
 
 impl Node {
-    /// Without children, in any order.
+    /// Without children.
     pub(crate) const EMPTY: Self = Self {
         lower: [[f32::INFINITY; WIDTH]; 3],
         upper: [[f32::NEG_INFINITY; WIDTH]; 3],
         child: [Child::NONE; WIDTH],
-        order: [0o7654_3210; WIDTH],
+        order: [0; WIDTH],
     };
 
     /// The box of a child.
@@ -131,6 +143,15 @@ impl Node {
         self.child[child] = what;
     }
 
+    /// Makes room for what comes before children, none of them triangles (see [`Child::moved`]).
+    pub(crate) fn move_children(&mut self, before: [usize; 2]) {
+        for (child, lower) in self.child.iter_mut().zip(self.lower[0]) {
+            if lower < f32::INFINITY {
+                *child = child.moved(before);
+            }
+        }
+    }
+
     /// The children that are there.
     pub(crate) fn children(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
         (0..WIDTH)
@@ -141,27 +162,36 @@ impl Node {
     /// Works out in which order rays look at the children: by how far their middles lie along the
     /// diagonal of each octant, the farthest first.
     pub(crate) fn sort(&mut self) {
+        let middle: [[f32; WIDTH]; 3] = std::array::from_fn(|axis| {
+            std::array::from_fn(|i| 0.5 * self.lower[axis][i] + 0.5 * self.upper[axis][i])
+        });
         for octant in 0..WIDTH / 2 {
-            let mut keyed: [(f32, usize); WIDTH] = std::array::from_fn(|i| {
-                let along = |axis: usize| {
-                    let middle = 0.5 * self.lower[axis][i] + 0.5 * self.upper[axis][i];
-                    let backward = octant >> axis & 1 == 1;
-                    if backward { -middle } else { middle }
-                };
-                // Not where sums are of infinities.
+            let signs = [0, 1, 2].map(|axis| if octant >> axis & 1 == 1 { -1.0 } else { 1.0 });
+            let keys: [f32; WIDTH] = std::array::from_fn(|i| {
+                let [x, y, z] = [0, 1, 2].map(|axis| signs[axis] * middle[axis][i]);
                 let there = self.lower[0][i] <= self.upper[0][i];
-                let key = if there {
-                    along(0) + along(1) + along(2)
-                } else {
-                    f32::INFINITY
-                };
-                (key, i)
+                // Not where sums are of infinities.
+                if there { x + y + z } else { f32::INFINITY }
             });
-            keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let ordered = keyed.map(|(_, i)| i as u32);
-            let bits = |of: &dyn Fn(usize) -> u32| (0..WIDTH).fold(0, |b, k| b | of(k) << (3 * k));
-            self.order[octant] = bits(&|k| ordered[WIDTH - 1 - k]);
-            self.order[octant ^ 7] = bits(&|k| ordered[k]);
+            // How many come before each one: no branch hangs on what is as good as random.
+            let mut ranks = [0_u32; WIDTH];
+            for j in 0..WIDTH {
+                for i in 0..WIDTH {
+                    let before = if j < i {
+                        keys[j] <= keys[i]
+                    } else {
+                        keys[j] < keys[i]
+                    };
+                    ranks[i] += u32::from(before);
+                }
+            }
+            let (mut forward, mut backward) = (0, 0);
+            for (i, rank) in (0..).zip(ranks) {
+                forward |= i << (3 * (7 - rank));
+                backward |= i << (3 * rank);
+            }
+            self.order[octant] = forward;
+            self.order[octant ^ 7] = backward;
         }
     }
 }

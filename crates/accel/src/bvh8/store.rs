@@ -35,6 +35,17 @@ impl<T: Pod> Store<T> {
             holds: PhantomData,
         })
     }
+
+    /// The list, to be changed: out of a file it is copied, once.
+    pub(crate) fn to_mut(&mut self) -> &mut Vec<T> {
+        if let Self::Mapped(_) = self {
+            *self = Self::Owned(self.to_vec());
+        }
+        match self {
+            Self::Owned(list) => list,
+            Self::Mapped(_) => unreachable!("it was copied"),
+        }
+    }
 }
 
 impl<T> From<Vec<T>> for Store<T> {

@@ -1,25 +1,39 @@
-//! The plain walk: for any primitive, and for rays in double precision.
+//! The walk that shows what is in leaves to a visitor: plain for rays that are to be traced in double
+//! precision.
 
 use std::ops::ControlFlow;
 
 use arrayvec::ArrayVec;
 
-use super::kernel::STACK;
+use super::kernel::{self, STACK};
 use super::node::{Child, WIDTH};
 use super::places::places;
+use super::quad::Quad;
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
 impl Wide {
-    /// See [`Structure::traverse`](crate::Structure::traverse). Boxes are tested in double
-    /// precision, one by one, with the pad that is made for that.
+    /// See [`Structure::traverse`](crate::Structure::traverse).
+    #[inline]
     pub(super) fn traverse<V: Visitor>(
         &self,
         ray: &TraversalRay,
         visitor: &mut V,
     ) -> ControlFlow<()> {
+        if let Leaves::Lists(list) = &self.leaves
+            && let Some(ray) = kernel::ready(self.level, ray, &self.near)
+        {
+            return kernel::walk_lists(self, list, &ray, visitor);
+        }
+        self.traverse_plainly(ray, visitor)
+    }
+
+    /// The same with boxes tested in double precision, one by one, with the pad that is made for that.
+    #[inline(never)]
+    fn traverse_plainly<V: Visitor>(&self, ray: &TraversalRay, visitor: &mut V) -> ControlFlow<()> {
         let mut waiting = ArrayVec::<(Child, f64), STACK>::new();
         waiting.push((self.tree.root, f64::NEG_INFINITY));
+        let inverse = ray.inverse_direction();
         let limit = |t_max: f64| t_max - ray.box_start;
         while let Some((child, entry)) = waiting.pop() {
             if entry > limit(visitor.t_max()) {
@@ -33,7 +47,7 @@ impl Wide {
             let node = &self.tree.nodes[child.index()];
             let mut entered = ArrayVec::<(Child, f64), WIDTH>::new();
             for (bounds, child) in node.children() {
-                if let Some([from, _]) = ray.clip(&bounds.wide(), visitor.t_max()) {
+                if let Some([from, _]) = ray.clip(inverse, &bounds.wide(), visitor.t_max()) {
                     entered.push((child, from));
                 }
             }
@@ -46,18 +60,17 @@ impl Wide {
     fn leaf<V: Visitor>(&self, leaf: Child, visitor: &mut V) -> ControlFlow<()> {
         match &self.leaves {
             Leaves::Lists(list) => visitor.leaf(&list[leaf.range()], Span::ALL),
-            Leaves::Places(_) => visitor.leaf(&places(leaf), Span::ALL),
+            Leaves::Quads(_) | Leaves::Places(_) => visitor.leaf(&self.list(leaf), Span::ALL),
+        }
+    }
+
+    /// What is in a leaf, as a visitor knows it: the numbers of primitives, or places.
+    pub(super) fn list(&self, leaf: Child) -> ArrayVec<u32, WIDTH> {
+        match &self.leaves {
+            Leaves::Lists(list) => list[leaf.range()].iter().copied().collect(),
+            Leaves::Places(_) => places(leaf),
             Leaves::Quads(quads) => {
-                let places = leaf.places();
-                let numbers = |k: usize| {
-                    let at = 9 * places + k;
-                    quads[leaf.quad() + at / 40].numbers[at % 40].to_bits()
-                };
-                let list: ArrayVec<u32, WIDTH> = (0..places)
-                    .map(numbers)
-                    .filter(|&n| n != u32::MAX)
-                    .collect();
-                visitor.leaf(&list, Span::ALL)
+                Quad::triangles(&quads[leaf.quad()..leaf.quad() + leaf.places() / 4])
             }
         }
     }

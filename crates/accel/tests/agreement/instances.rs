@@ -56,19 +56,16 @@ fn placements(x: f64) -> Vec<Instance> {
     ];
     let mut placements = Vec::new();
     for geometry in 0..5 {
-        placements.extend(ways.iter().map(|&world_from_object| Instance {
-            geometry: GeometryId(geometry),
-            world_from_object,
-        }));
+        placements.extend(
+            ways.iter()
+                .map(|&world_from_object| Instance::new(GeometryId(geometry), world_from_object)),
+        );
     }
     // Far out in object space, at home in the world.
-    placements.push(Instance {
-        geometry: GeometryId(5),
-        world_from_object: at(x - 1e6, 1e6, -1e6),
-    });
-    placements.push(Instance {
-        geometry: GeometryId(5),
-        world_from_object: at(-1e6, 1e6, -1e6)
+    placements.push(Instance::new(GeometryId(5), at(x - 1e6, 1e6, -1e6)));
+    placements.push(Instance::new(
+        GeometryId(5),
+        at(-1e6, 1e6, -1e6)
             .then(&Transform::<World, World>::rotation(
                 Vector3::new(0.3, -1.0, 0.7),
                 0.6,
@@ -76,7 +73,7 @@ fn placements(x: f64) -> Vec<Instance> {
             .then(&Transform::<World, World>::translation(Vector3::new(
                 x, 3.0, 0.0,
             ))),
-    });
+    ));
     placements
 }
 
@@ -152,10 +149,7 @@ fn every_structure_agrees_with_brute_force_under_extreme_placements() {
         let mesh = meshes::moved(&meshes::icosphere(2), size, 0.0);
         let placed = |kind| {
             let geometry = Accel::build(meshes::geometry(mesh.clone()), kind);
-            let instance = Instance {
-                geometry: GeometryId(0),
-                world_from_object,
-            };
+            let instance = Instance::new(GeometryId(0), world_from_object);
             let placed = Instances::new(vec![Arc::new(geometry)], vec![instance]);
             Accel::build(placed, kind)
         };
@@ -191,10 +185,7 @@ fn a_geometry_placed_as_it_is_answers_bit_for_bit_like_the_geometry_alone() {
         let geometry = meshes::geometry(mesh);
         for &kind in StructureKind::ALL {
             let alone = Arc::new(Accel::build(geometry.clone(), kind));
-            let placed = Instance {
-                geometry: GeometryId(0),
-                world_from_object: Transform::identity(),
-            };
+            let placed = Instance::new(GeometryId(0), Transform::identity());
             let placed = Instances::new(vec![Arc::clone(&alone)], vec![placed]);
             let placed = Accel::build(placed, kind);
             assert_eq!(placed.bounds(), alone.bounds(), "{name}, {kind}");
@@ -222,10 +213,7 @@ fn of_equal_hits_the_lowest_ids_win() {
         let order: Vec<_> = all.iter().map(|hit| hit.primitive.0).collect();
         assert_eq!(order, (0..20).collect::<Vec<_>>(), "{kind}");
 
-        let geometry = |i| Instance {
-            geometry: GeometryId(i),
-            world_from_object: Transform::identity(),
-        };
+        let geometry = |i| Instance::new(GeometryId(i), Transform::identity());
         let instances = vec![geometry(1), geometry(0), geometry(1)];
         let top = Instances::new(vec![Arc::clone(&accel), accel], instances);
         let hit = Accel::build(top, kind).intersect(&ray).unwrap();
@@ -239,10 +227,10 @@ fn an_uneven_scale_opens_no_cracks() {
         meshes::geometry(meshes::icosphere(3)),
         StructureKind::Bvh,
     ));
-    let flat = Instance {
-        geometry: GeometryId(0),
-        world_from_object: scaled(1.0, 1.0, 0.02).then(&at(0.3, 0.7, 0.0)),
-    };
+    let flat = Instance::new(
+        GeometryId(0),
+        scaled(1.0, 1.0, 0.02).then(&at(0.3, 0.7, 0.0)),
+    );
     let accel = Accel::build(Instances::new(vec![cube], vec![flat]), StructureKind::Bvh);
     let mut numbers = crate::numbers::Numbers::new(41);
     for _ in 0..20_000 {

@@ -4,14 +4,22 @@
 //! later is covered without a line.
 
 mod answers;
+mod bundles;
 mod custom;
+mod degenerate;
+mod distances;
 mod instances;
+mod masks;
+mod measured;
 mod meshes;
 mod numbers;
 mod proptests;
 mod rays;
 mod real_meshes;
+mod refit;
+mod scale;
 mod statistics;
+mod stretched;
 mod watertight;
 
 use ombra_accel::{Geometry, Primitives, Shapes};

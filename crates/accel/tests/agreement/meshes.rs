@@ -99,7 +99,7 @@ fn not_finite() -> TriangleMesh {
     soup(triangles)
 }
 
-fn slivers(count: usize) -> TriangleMesh {
+pub(crate) fn slivers(count: usize) -> TriangleMesh {
     let mut numbers = Numbers::new(14);
     let triangles = (0..count).map(|_| {
         let (a, b) = (numbers.point(10.0), numbers.point(10.0));

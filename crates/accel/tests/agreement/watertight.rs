@@ -110,10 +110,7 @@ fn no_ray_from_outside_slips_through_a_closed_mesh_from_however_far() {
                 600
             };
             let alone = Arc::new(Accel::build(meshes::geometry(mesh.clone()), kind));
-            let instance = Instance {
-                geometry: GeometryId(0),
-                world_from_object: uneven,
-            };
+            let instance = Instance::new(GeometryId(0), uneven);
             let placed = Instances::new(vec![Arc::clone(&alone)], vec![instance]);
             let placed = Accel::build(placed, kind);
             for away in AWAY {

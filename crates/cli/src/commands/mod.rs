@@ -7,3 +7,4 @@ pub(crate) mod info;
 pub(crate) mod lists;
 pub(crate) mod minray;
 pub(crate) mod render;
+pub(crate) mod study;

@@ -388,6 +388,17 @@ fn a_tree_that_was_written_is_compared_with_one_of_now() {
     let broken = ["explain", "whitted", "--diff", "broken.json", "this"];
     let talk = fail(folder.path(), &broken, 1);
     assert!(talk.contains("broken.json"), "{talk}");
+
+    let mut nothing: Value = serde_json::from_str(&json).unwrap();
+    nothing["samples"][0]["rays"] = Value::Array(Vec::new());
+    let without_rays = nothing.to_string();
+    nothing["samples"] = Value::Array(Vec::new());
+    for (text, what) in [(without_rays, "`rays`"), (nothing.to_string(), "`samples`")] {
+        std::fs::write(folder.path().join("nothing.json"), text).unwrap();
+        let arguments = ["explain", "whitted", "--diff", "nothing.json", "this"];
+        let talk = fail(folder.path(), &arguments, 1);
+        assert!(talk.contains(what) && talk.lines().count() == 1, "{talk}");
+    }
 }
 
 #[test]
@@ -424,6 +435,10 @@ fn what_cannot_be_explained_is_wrong_usage() {
             2,
         );
         assert!(talk.contains(said), "{arguments:?}: {talk}");
+        assert!(
+            talk.contains("Usage: ombra explain") || !talk.contains("Usage:"),
+            "{talk}"
+        );
     }
     let nowhere = [
         "explain",

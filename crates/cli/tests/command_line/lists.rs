@@ -53,6 +53,7 @@ fn help_names_every_command() {
     for command in [
         "render",
         "compare",
+        "study",
         "explain",
         "minray",
         "bench",

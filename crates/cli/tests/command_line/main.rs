@@ -8,6 +8,7 @@ mod interrupted;
 mod lists;
 mod minray;
 mod pictures;
+mod studied;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -5,12 +5,12 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use base64::Engine as _;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use base64::{DecodeError, Engine as _};
 use percent_encoding::percent_decode_str;
 
-use crate::error::{Fault, FormatError};
+use crate::error::{Fault, FormatError, quoted};
 use crate::finding::Finding;
 use crate::mesh::resolve;
 
@@ -39,7 +39,30 @@ pub(super) fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
     }
     let content: Cow<'_, [u8]> = percent_decode_str(content).into();
     let decoded = BASE64.decode(content.trim_ascii());
-    Some(decoded.map_err(|error| format!("the data URI cannot be decoded as base64: {error}")))
+    Some(decoded.map_err(|error| not_base64(&error)))
+}
+
+/// What is wrong with base64, and what would be right.
+fn not_base64(error: &DecodeError) -> String {
+    let wrong = match *error {
+        DecodeError::InvalidByte(at, byte) => {
+            let found = quoted(&[byte]);
+            format!(
+                "{found} after {at} digits; digits are A-Z, a-z, 0-9, + and /, with = at the end alone"
+            )
+        }
+        DecodeError::InvalidLength(_) => {
+            "one digit is left over; the last two, three or four digits make bytes".to_owned()
+        }
+        DecodeError::InvalidLastSymbol { .. } => {
+            "bits are left over in the last digit; they have to be 0".to_owned()
+        }
+        DecodeError::InvalidPadding => {
+            "wrong = at the end; they fill it up to a multiple of four digits, or are left out"
+                .to_owned()
+        }
+    };
+    format!("the data URI cannot be decoded as base64: {wrong}")
 }
 
 /// A URI as the name of a file: with its `%20` and the like decoded.
@@ -87,8 +110,12 @@ mod tests {
 
     #[test]
     fn broken_data_uris_are_named() {
-        let error = |uri| data(uri).unwrap().unwrap_err();
+        let error = |uri: &str| data(uri).unwrap().unwrap_err();
         assert!(error("data:;base64,@@@@").contains("cannot be decoded as base64"));
+        for (wrong, right) in [("@@@@", "A-Z"), ("AQIDA", "left over"), ("AQJ=", "0")] {
+            let said = error(&format!("data:;base64,{wrong}"));
+            assert!(said.contains(right) && !said.contains("Invalid"), "{said}");
+        }
         assert!(error("data:;base64").contains("no comma"));
     }
 }

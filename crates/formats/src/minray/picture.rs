@@ -149,11 +149,14 @@ fn read(mut source: Source<'_>, limits: &Limits) -> Result<ContestPicture, Forma
         .collect();
     let rows = u64::from(width) * u64::from(height);
     if pixels.len() as u64 != rows {
-        let element = "pixels".to_owned();
-        let row = pixels.len() as u64 + 1;
+        let found = match pixels.len() {
+            0 => "the end of the file after its size, without a pixel".to_owned(),
+            there => format!("the end of the file after {there} of {rows} pixels"),
+        };
+        let expected = "\"r g b\" for each pixel";
         return Err(FormatError::line(
             last,
-            Fault::UnexpectedEnd { element, row, rows },
+            Fault::Unexpected { found, expected },
         ));
     }
     Ok(ContestPicture {
@@ -193,7 +196,8 @@ mod tests {
             ("2", "the size of the picture"),
             ("0 1", "1 to 65536 pixels"),
             ("65536 65536", "over the limit"),
-            ("1 1\n1 2", "end of file"),
+            ("1 1\n1 2", "without a pixel"),
+            ("1 2\n1 2 3 4", "after 1 of 2 pixels"),
             ("1 1\n1 2 x", "\"x\", which is not a number"),
             ("1 1\n1 2 3 4", "the end of the picture"),
             ("1 1\n1 nan 3", "finite"),

@@ -58,6 +58,10 @@ impl Surface for Cuboid {
         })
     }
 
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        self.slabs.nearest(point.to_vector())
+    }
+
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         let face = self.slabs.nearest_face(point.to_vector());
         SurfacePoint {

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use super::error::{ShapeError, direction, finite, positive};
-use super::frame::{Frame, disk_reach, report, turn, unit};
+use super::frame::{Frame, disk_reach, report, unit};
 use super::plane::distance_along;
+use super::turn::turn;
 use super::{Surface, SurfacePoint, SurfaceSample};
 use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 
@@ -55,6 +56,19 @@ impl Surface for Disk {
         let reach = disk_reach(self.frame.z) * self.radius;
         let centre = self.frame.origin;
         Aabb::enclosing(Aabb::around([centre - reach, centre + reach]))
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let local = self.frame.local(point);
+        let out = local.x.hypot(local.y);
+        // Within the rim it is straight down.
+        let inward = if out > self.radius {
+            self.radius / out - 1.0
+        } else {
+            0.0
+        };
+        let to = Vector3::new(local.x * inward, local.y * inward, -local.z);
+        self.frame.world_vector(to)
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -1,6 +1,5 @@
 //! The frame in which a shape is simple, and rays in it.
 
-use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::Surface;
@@ -138,13 +137,6 @@ pub(super) fn collected(shape: &impl Surface, ray: &Ray<f64>) -> Crossings {
     found
 }
 
-/// The angle of (x, y) from +x towards +y as a part of a full turn, in `[0, 1]`.
-#[inline]
-pub(super) fn turn(x: f64, y: f64) -> f32 {
-    let turn = y.atan2(x) / (2.0 * PI);
-    (if turn < 0.0 { turn + 1.0 } else { turn }) as f32
-}
-
 /// A number that is in `[0, 1]` but for rounding; 0 for the 0 / 0 at the centre of nothing.
 #[inline]
 pub(super) fn unit(x: f64) -> f32 {
@@ -153,6 +145,18 @@ pub(super) fn unit(x: f64) -> f32 {
     } else {
         x.clamp(0.0, 1.0) as f32
     }
+}
+
+/// The shortest of some ways, the first of equally short ones.
+pub(super) fn nearest_of(ways: impl IntoIterator<Item = Vector3<f64>>) -> Vector3<f64> {
+    let longest = Vector3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+    ways.into_iter().fold(longest, |nearest, way| {
+        if way.length_squared() < nearest.length_squared() {
+            way
+        } else {
+            nearest
+        }
+    })
 }
 
 /// What a disk of radius 1 with unit normal `axis` takes up along each axis of the world.

@@ -18,6 +18,7 @@ mod cuboid;
 mod cylinder;
 mod disk;
 mod error;
+mod faces;
 mod frame;
 mod frustum;
 mod interval;
@@ -32,6 +33,7 @@ mod sphere;
 mod tessellate;
 mod torus;
 mod triangle;
+mod turn;
 
 use std::ops::ControlFlow;
 
@@ -77,6 +79,11 @@ pub trait Surface {
     {
         self.crossings(ray).into_iter().try_for_each(visit)
     }
+
+    /// From a point to the point of the surface that is nearest to it; if there are several, to one of
+    /// them. A closed shape is its surface here too: inside it, the way out is meant. For the point
+    /// and the shape to have one they must be finite and not degenerate.
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64>;
 
     /// What the surface is like at a point on it. A point that is off by rounding is answered as
     /// the nearest one on the surface.
@@ -144,6 +151,10 @@ macro_rules! delegate_surface {
 
             fn bounds(&self) -> $crate::Aabb {
                 self.0.bounds()
+            }
+
+            fn to_nearest(&self, point: $crate::Point3<f64>) -> $crate::Vector3<f64> {
+                self.0.to_nearest(point)
             }
 
             fn surface_at(&self, point: $crate::Point3<f64>) -> $crate::shape::SurfacePoint {
@@ -214,6 +225,13 @@ impl Shape {
             _ => Ok(()),
         }
     }
+
+    /// The crossings, by a call: compiled into a traversal, the tests of all shapes would make a stack
+    /// frame of 10 KB for every test of a sphere.
+    #[inline(never)]
+    fn called(&self, ray: &Ray<f64>) -> Crossings {
+        self.crossings(ray)
+    }
 }
 
 impl Surface for Shape {
@@ -228,11 +246,19 @@ impl Surface for Shape {
         ray: &Ray<f64>,
         visit: &mut impl FnMut(Crossing) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        each!(self, shape => shape.visit_crossings(ray, visit))
+        match self {
+            Self::Sphere(sphere) => sphere.visit_crossings(ray, visit),
+            Self::Plane(plane) => plane.visit_crossings(ray, visit),
+            other => other.called(ray).into_iter().try_for_each(visit),
+        }
     }
 
     fn bounds(&self) -> Aabb {
         each!(self, shape => shape.bounds())
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        each!(self, shape => shape.to_nearest(point))
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -80,6 +80,11 @@ impl Surface for OrientedBox {
         Aabb::enclosing(Aabb::around([origin - reach, origin + reach]))
     }
 
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let local = self.frame.local(point);
+        self.frame.world_vector(self.slabs.nearest(local))
+    }
+
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         let local = self.frame.local(point);
         let face = self.slabs.nearest_face(local);

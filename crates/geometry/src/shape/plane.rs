@@ -70,6 +70,10 @@ impl Surface for Plane {
         Aabb::UNBOUNDED
     }
 
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        self.frame.z * (self.frame.origin - point).dot(self.frame.z)
+    }
+
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         SurfacePoint {
             normal: self.frame.z.to_normal(),

@@ -1,7 +1,7 @@
 //! The convex polyhedron: what some half-spaces have in common.
 
 use super::error::{ShapeError, direction, finite};
-use super::frame::{LocalRay, report};
+use super::frame::{LocalRay, nearest_of, report};
 use super::interval::Interval;
 use super::polyhedron_face::{Face, PlaneEquation, faces_of};
 use super::{Surface, SurfacePoint, SurfaceSample};
@@ -141,6 +141,11 @@ impl Surface for ConvexPolyhedron {
     fn bounds(&self) -> Aabb {
         let corners = self.faces.iter().flat_map(Face::corners);
         Aabb::enclosing(Aabb::around(corners.map(|&corner| self.centre + corner)))
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let local = point - self.centre;
+        nearest_of(self.faces.iter().map(|face| face.to_nearest(local)))
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -1,7 +1,8 @@
 //! The faces of a convex polyhedron, from its planes.
 
 use super::ShapeError;
-use super::frame::unit;
+use super::frame::{nearest_of, unit};
+use crate::triangle::share;
 use crate::{Vector3, sampling};
 
 /// An endless solid reaches this many times further than its planes' points lie apart.
@@ -63,6 +64,23 @@ impl Face {
     pub(super) fn uv(&self, point: Vector3<f64>) -> [f32; 2] {
         self.chart
             .map(|(axis, start)| unit(point.dot(axis) - start))
+    }
+
+    /// From a point to the nearest point of the face.
+    pub(super) fn to_nearest(&self, point: Vector3<f64>) -> Vector3<f64> {
+        let normal = self.plane.normal;
+        let down = normal * (self.corners[0] - point).dot(normal);
+        let next = self.corners[1..].iter().chain(&self.corners[..1]);
+        let edges = self.corners.iter().zip(next);
+        let edges = edges.map(|(&from, &to)| (from - point, to - from));
+        // The edges run counter-clockwise, so the inside is to the left of all of them.
+        if edges
+            .clone()
+            .all(|(from, along)| normal.cross(along).dot(from) <= 0.0)
+        {
+            return down;
+        }
+        nearest_of(edges.map(|(from, along)| from + along * share(from, along)))
     }
 
     /// A uniform point, from a triangle of the fan around the first corner.

@@ -1,9 +1,10 @@
 //! The rectangle, and any other parallelogram.
 
 use super::error::{ShapeError, direction, finite};
-use super::frame::{Frame, report, unit};
+use super::frame::{Frame, nearest_of, report, unit};
 use super::plane::distance_along;
 use super::{Surface, SurfacePoint, SurfaceSample};
+use crate::triangle::share;
 use crate::{Aabb, Crossings, Point3, Ray, Vector3};
 
 /// A rectangle or any other parallelogram, seen from both sides.
@@ -76,6 +77,22 @@ impl Surface for Rectangle {
             corner + second,
             corner + first + second,
         ]))
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let weights = self.weights(point);
+        let [first, second] = self.edges;
+        let corner = self.frame.origin - point;
+        if weights.iter().all(|weight| (0.0..=1.0).contains(weight)) {
+            return self.frame.z * corner.dot(self.frame.z);
+        }
+        let edges = [
+            (corner, first),
+            (corner, second),
+            (corner + first, second),
+            (corner + second, first),
+        ];
+        nearest_of(edges.map(|(from, along)| from + along * share(from, along)))
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -3,9 +3,11 @@
 use std::f64::consts::PI;
 
 use super::error::{ShapeError, direction, finite};
-use super::frame::{Frame, LocalRay, disk_reach, report, turn, unit};
+use super::frame::{Frame, LocalRay, disk_reach, nearest_of, report, unit};
 use super::interval::Interval;
+use super::turn::turn;
 use super::{Ends, Surface, SurfacePoint, SurfaceSample};
+use crate::triangle::share;
 use crate::{Aabb, Crossings, Point3, Ray, Vector3, sampling};
 
 /// What `Interval` calls the side and the two caps.
@@ -191,6 +193,34 @@ impl Surface for Revolved {
             top - reach * top_radius,
             top + reach * top_radius,
         ]))
+    }
+
+    /// In the plane through the axis and the point: the nearest of up to three segments.
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let local = self.frame.local(point);
+        let out = local.x.hypot(local.y);
+        // On the axis any direction is as good as any other.
+        let (x, y) = if out > 0.0 {
+            (local.x / out, local.y / out)
+        } else {
+            (1.0, 0.0)
+        };
+        let [base, top] = self.radii;
+        let height = self.height;
+        let side = ([base, 0.0], [top, height]);
+        let caps = [([0.0, 0.0], [base, 0.0]), ([0.0, height], [top, height])];
+        let caps = match self.ends {
+            Ends::Capped => &caps[..],
+            Ends::Open => &[],
+        };
+        let nearest = |&([r0, z0], [r1, z1]): &([f64; 2], [f64; 2])| {
+            let from = Vector3::new(r0 - out, 0.0, z0 - local.z);
+            let along = Vector3::new(r1 - r0, 0.0, z1 - z0);
+            from + along * share(from, along)
+        };
+        let to = nearest_of([side].iter().chain(caps).map(nearest));
+        self.frame
+            .world_vector(Vector3::new(to.x * x, to.x * y, to.z))
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -37,6 +37,22 @@ impl Slabs {
             .unwrap_or(0)
     }
 
+    /// From a point to the nearest point of the surface.
+    pub(super) fn nearest(&self, point: Vector3<f64>) -> Vector3<f64> {
+        let mut to = Vector3::new(0.0, 0.0, 0.0);
+        for axis in Axis::ALL {
+            // At most one of the two is not 0.
+            to[axis] =
+                (self.lo[axis] - point[axis]).max(0.0) + (self.hi[axis] - point[axis]).min(0.0);
+        }
+        if to.max_norm() == 0.0 {
+            let face = self.nearest_face(point);
+            let axis = Axis::ALL[face / 2];
+            to[axis] = self.plane(face) - point[axis];
+        }
+        to
+    }
+
     /// The outward normal of a face.
     pub(super) fn normal(face: usize) -> Vector3<f64> {
         let mut normal = Vector3::new(0.0, 0.0, 0.0);

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::error::{ShapeError, finite, positive};
-use super::frame::{collected, counts, turn, unit};
+use super::frame::{collected, counts};
+use super::turn::turn;
 use super::{Surface, SurfacePoint, SurfaceSample};
 use crate::{Aabb, Crossing, Crossings, Normal3, Point3, Ray, Vector3, sampling};
 
@@ -36,8 +37,8 @@ impl Sphere {
     }
 
     fn uv(direction: Vector3<f64>) -> [f32; 2] {
-        let up = direction.z.clamp(-1.0, 1.0).asin() / PI + 0.5;
-        [turn(direction.x, direction.y), unit(up)]
+        let Vector3 { x, y, z } = direction;
+        [turn(x, y), 2.0 * turn(-z, (x * x + y * y).sqrt())]
     }
 }
 
@@ -90,6 +91,12 @@ impl Surface for Sphere {
         }
         let centre = self.centre.wide();
         Aabb::enclosing(Aabb::around([centre]).padded(f64::from(self.radius)))
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let from_centre = point - self.centre.wide();
+        let outward = self.normal_at(point).to_vector();
+        outward * (f64::from(self.radius) - from_centre.length())
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use super::error::{ShapeError, direction, finite, positive};
-use super::frame::{Frame, LocalRay, disk_reach, report, turn};
+use super::frame::{Frame, LocalRay, disk_reach, report};
 use super::interval::Interval;
+use super::turn::turn;
 use super::{Surface, SurfacePoint, SurfaceSample};
 use crate::polynomial::{bracketed_root, turning_points};
 use crate::{Aabb, Crossings, Normal3, Point3, Ray, Vector3};
@@ -105,6 +106,20 @@ impl Torus {
         (ring + normal * self.minor, normal)
     }
 
+    /// The unit normal where the surface is nearest to a point.
+    fn outward(&self, local: Vector3<f64>) -> Vector3<f64> {
+        let out = local.x.hypot(local.y);
+        // On the axis any point of the ring is as near as any other.
+        let (x, y) = if out > 0.0 {
+            (local.x / out, local.y / out)
+        } else {
+            (1.0, 0.0)
+        };
+        let from_ring = out - self.major;
+        let normal = Vector3::new(from_ring * x, from_ring * y, local.z);
+        normal.normalized().unwrap_or(Vector3::new(x, y, 0.0))
+    }
+
     fn uv(&self, local: Vector3<f64>) -> [f32; 2] {
         let out = local.x.hypot(local.y) - self.major;
         [turn(local.x, local.y), turn(out, local.z)]
@@ -149,20 +164,17 @@ impl Surface for Torus {
         Aabb::enclosing(Aabb::around([centre - reach, centre + reach]))
     }
 
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        let local = self.frame.local(point);
+        let from_ring = local.x.hypot(local.y) - self.major;
+        let out = self.minor - from_ring.hypot(local.z);
+        self.frame.world_vector(self.outward(local) * out)
+    }
+
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {
         let local = self.frame.local(point);
-        let out = local.x.hypot(local.y);
-        // On the axis any point of the ring is as near as any other.
-        let (x, y) = if out > 0.0 {
-            (local.x / out, local.y / out)
-        } else {
-            (1.0, 0.0)
-        };
-        let from_ring = out - self.major;
-        let normal = Vector3::new(from_ring * x, from_ring * y, local.z);
-        let normal = normal.normalized().unwrap_or(Vector3::new(x, y, 0.0));
         SurfacePoint {
-            normal: self.frame.world_normal(normal),
+            normal: self.frame.world_normal(self.outward(local)),
             uv: self.uv(local),
         }
     }

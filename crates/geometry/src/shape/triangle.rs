@@ -3,7 +3,7 @@
 use super::error::{ShapeError, finite};
 use super::frame::unit;
 use super::{Surface, SurfacePoint, SurfaceSample};
-use crate::triangle::{TriangleKernel, Watertight};
+use crate::triangle::{TriangleKernel, Watertight, nearest};
 use crate::{Aabb, Crossings, EdgeRule, Point3, Ray, Vector3, sampling};
 
 /// A triangle on its own, seen from both sides. Many that share corners are a
@@ -70,6 +70,10 @@ impl Surface for Triangle {
         } else {
             Aabb::EMPTY
         }
+    }
+
+    fn to_nearest(&self, point: Point3<f64>) -> Vector3<f64> {
+        nearest(point, self.corners.map(Point3::wide)).offset
     }
 
     fn surface_at(&self, point: Point3<f64>) -> SurfacePoint {

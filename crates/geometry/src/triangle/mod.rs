@@ -1,11 +1,13 @@
 //! Where a line crosses a triangle, three ways.
 //!
 //! Each kernel is two steps: what can be worked out once a ray, and the test of one triangle. They
-//! are chosen by name ([`TriangleTest`]); the watertight one is the default for meshes.
+//! are chosen by name ([`TriangleTest`]); the watertight one is the default for meshes. Beside them is
+//! the other question about a triangle: which of its points is [nearest](nearest()).
 
 mod barycentric;
 mod cramer;
 mod moller_trumbore;
+mod nearest;
 mod watertight;
 
 use std::fmt;
@@ -15,6 +17,8 @@ use crate::{Crossing, EdgeRule, Point3, Ray, Real};
 
 pub use cramer::Cramer;
 pub use moller_trumbore::MollerTrumbore;
+pub(crate) use nearest::share;
+pub use nearest::{Nearest, nearest};
 pub use watertight::Watertight;
 
 /// A ray–triangle test. `T` is the precision that it works in.

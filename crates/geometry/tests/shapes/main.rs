@@ -2,6 +2,7 @@
 //! double precision: what it crosses, its normals, its bounds, its area and its samples.
 
 mod density;
+mod nearest;
 mod random;
 mod reference;
 

@@ -21,6 +21,7 @@
 mod band;
 mod bands;
 mod facet;
+mod nearest;
 mod outline;
 mod predicate;
 mod presence;

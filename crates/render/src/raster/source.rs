@@ -7,15 +7,13 @@ use ombra_accel::{Geometry, Primitives as _};
 use ombra_geometry::shape::{
     Plane, Shape, Surface as _, TessellationError, tessellate, triangle_count,
 };
-use ombra_geometry::{
-    Aabb, Camera as CameraSpace, Object, Transform, TriangleMesh, World as WorldSpace,
-};
+use ombra_geometry::{Camera as CameraSpace, Object, Transform, TriangleMesh, World as WorldSpace};
 use ombra_scene::Scene;
 
 use super::view::View;
 
 /// How far triangles may be from the curved shape that they stand for, in pixels at the place where
-/// the shape is nearest.
+/// the box of the shape comes nearest within the picture.
 pub const TOLERANCE: f64 = 1.0 / 16.0;
 
 /// The most triangles for one shape and for all of a scene: where they do not suffice the tolerance
@@ -48,7 +46,7 @@ pub(super) enum Form {
 /// A shape as it was described, and the size of a pixel where it is nearest, in its own units.
 struct Wanted<'a> {
     shape: &'a Shape,
-    /// `None` if it is behind the camera.
+    /// `None` if it is out of view.
     pixel: Option<f64>,
     /// What was settled on, as a power of 2; `None` for a shape that has no triangles.
     exponent: Option<i32>,
@@ -65,9 +63,9 @@ pub(super) fn sources<'a>(scene: &'a Scene, view: &View) -> Vec<Source<'a>> {
                 let growth = growth(&object.world_from_object);
                 let one = |(i, shape)| {
                     let bounds = object.world_from_object.aabb(&shapes.bounds(i as u32));
-                    let [nearest, farthest] = depths(&bounds, view);
-                    // Nothing behind the camera is seen.
-                    let pixel = (farthest >= 0.0).then(|| view.pixel_at(nearest) / growth);
+                    let pixel = view
+                        .nearest(&bounds)
+                        .map(|depth| view.pixel_at(depth) / growth);
                     want(shape, pixel, TOLERANCE)
                 };
                 shapes.0.iter().enumerate().map(one).collect()
@@ -148,17 +146,6 @@ fn want(shape: &Shape, pixel: Option<f64>, part: f64) -> Wanted<'_> {
             triangles,
         };
     }
-}
-
-/// How near a box comes to the camera along its direction, and how far away; behind it is negative.
-fn depths(bounds: &Aabb, view: &View) -> [f64; 2] {
-    let corners = bounds.wide().corners();
-    let depths = corners.map(|corner| -view.camera_from_world().point(corner).z);
-    let end = |of: fn(f64, f64) -> f64, start| depths.into_iter().fold(start, of);
-    [
-        end(f64::min, f64::INFINITY),
-        end(f64::max, f64::NEG_INFINITY),
-    ]
 }
 
 /// By how much a transform can enlarge a distance at most: the largest absolute row sum times √3.

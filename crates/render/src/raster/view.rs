@@ -50,6 +50,17 @@ impl Projected {
         [self.x / self.w, self.y / self.w]
     }
 
+    /// A part of the way to another point.
+    pub(super) fn between(&self, other: &Self, part: f64) -> Self {
+        let lerp = |a: f64, b: f64| a + (b - a) * part;
+        Self {
+            x: lerp(self.x, other.x),
+            y: lerp(self.y, other.y),
+            w: lerp(self.w, other.w),
+            depth: lerp(self.depth, other.depth),
+        }
+    }
+
     /// Where the way to another point meets the near plane, after this part of it.
     pub(super) fn toward(&self, other: &Self, part: f64, near: f64) -> Self {
         let lerp = |a: f64, b: f64| a + (b - a) * part;
@@ -137,6 +148,11 @@ impl View {
             w,
             depth,
         }
+    }
+
+    /// The width and height of the picture, in pixels.
+    pub(super) fn pixels(&self) -> [f64; 2] {
+        self.middle.map(|half| 2.0 * half)
     }
 
     /// The size of a pixel at some depth, in units of the scene.

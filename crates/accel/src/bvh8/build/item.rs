@@ -4,7 +4,8 @@ use ombra_geometry::{Aabb, Point3};
 
 /// A box and a number. Lanes 0 to 2 hold the lowest corner, lanes 4 to 6 the highest with its sign
 /// changed: so the union of two boxes is the smaller of each lane, one instruction. Lane 3 holds the
-/// number as bits; lane 7 is idle.
+/// number as bits; as a single it is mostly too small to be normal, and sums and products of such take
+/// long, so lane 7 is NaN, which makes NaN of every sum that has both.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Item {
@@ -21,7 +22,16 @@ impl Item {
         let (min, max) = (bounds.min, bounds.max);
         let number = f32::from_bits(primitive);
         Self {
-            lanes: [min.x, min.y, min.z, number, -max.x, -max.y, -max.z, 0.0],
+            lanes: [
+                min.x,
+                min.y,
+                min.z,
+                number,
+                -max.x,
+                -max.y,
+                -max.z,
+                f32::NAN,
+            ],
         }
     }
 

@@ -191,10 +191,13 @@ fn places<const N: usize>(numbers: &[f32], triangles: u32) -> Option<usize> {
         }
     }
     let number = row(9).map(f32::to_bits);
+    // Kernels stop at the first place without a triangle.
+    let mut ended = false;
     (0..N).find(|&k| {
         let is_triangle = (not_finite[k] == 0) & (number[k] < triangles);
         let is_none = (not_nan[k] == 0) & (number[k] == u32::MAX);
-        !(is_triangle | is_none)
+        ended |= is_none;
+        !(is_triangle | is_none) | (is_triangle & ended)
     })
 }
 

@@ -23,7 +23,7 @@ pub enum StructureFileError {
     },
     /// Not a structure that can be a file.
     #[error(
-        "{}: a structure `{kind}` over these primitives cannot be saved; one that can is `bvh8` over a mesh with the watertight test",
+        "{}: a structure `{kind}` over these primitives cannot be saved; one that can is `bvh8`, `bvh8-fast` or `bvh8-high` over a mesh with the watertight test and without infinite corners",
         .path.display()
     )]
     NotSaved {
@@ -132,6 +132,9 @@ pub enum StructureFault {
     /// Bytes without a meaning that are not 0.
     #[error("a byte is {0} that has no meaning in version {VERSION} and must be 0")]
     Reserved(u8),
+    /// Neither yes nor no.
+    #[error("whether triangles are listed more than once is 0 for no or 1 for yes, but {0} is stated")]
+    Repeats(u32),
     /// A box that is neither finite nor that around nothing.
     #[error(
         "a box is neither finite, its lower corner below its upper one, nor the one around nothing, from inf to -inf"
@@ -190,7 +193,7 @@ pub enum StructureFault {
     },
     /// A triangle that is not one.
     #[error(
-        "place {0} of a leaf holds neither a triangle, with finite corners and a number below that of triangles, nor NaN corners and the number 4294967295"
+        "place {0} of a leaf holds neither a triangle, with finite corners and a number below that of triangles, nor, after all triangles, NaN corners and the number 4294967295"
     )]
     Triangle(usize),
 }

@@ -29,7 +29,8 @@ pub(super) const AT_ROOT: usize = 32;
 pub(super) const AT_NODES_SUM: usize = 36;
 pub(super) const AT_QUADS_SUM: usize = 40;
 pub(super) const AT_BOUNDS: usize = 44;
-const AT_RESERVED: usize = 68;
+const AT_REPEATS: usize = 68;
+const AT_RESERVED: usize = 72;
 const AT_SUM: usize = 124;
 
 /// What a header says.
@@ -39,6 +40,8 @@ pub(super) struct Header {
     pub(super) quads: u32,
     /// All numbers of triangles are below this.
     pub(super) triangles: u32,
+    /// Whether leaves may name a triangle more than once.
+    pub(super) repeats: bool,
     pub(super) depth: u32,
     pub(super) root: Child,
     pub(super) nodes_sum: u32,
@@ -63,6 +66,7 @@ impl Header {
         for (k, number) in min.into_iter().chain(max).enumerate() {
             put(AT_BOUNDS + 4 * k, number.to_le_bytes());
         }
+        put(AT_REPEATS, u32::from(self.repeats).to_le_bytes());
         bytes[..MAGIC.len()].copy_from_slice(&MAGIC);
         let sum = crc32fast::hash(&bytes[..AT_SUM]);
         bytes[AT_SUM..].copy_from_slice(&sum.to_le_bytes());
@@ -108,6 +112,7 @@ impl Header {
             nodes: word(AT_NODES),
             quads: word(AT_QUADS),
             triangles: word(AT_TRIANGLES),
+            repeats: word(AT_REPEATS) != 0,
             depth: word(AT_DEPTH),
             root: Child(word(AT_ROOT)),
             nodes_sum: word(AT_NODES_SUM),
@@ -117,6 +122,10 @@ impl Header {
                 max: corner(AT_BOUNDS + 12),
             },
         };
+        if word(AT_REPEATS) > 1 {
+            let fault = StructureFault::Repeats(word(AT_REPEATS));
+            return Err((AT_REPEATS as u64, fault));
+        }
         let reserved = AT_RESERVED..AT_SUM;
         if let Some(at) = reserved.into_iter().find(|&at| bytes[at] != 0) {
             return Err((at as u64, StructureFault::Reserved(bytes[at])));

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use memmap2::{Mmap, MmapMut};
 use ombra_geometry::Aabb;
 
-use super::super::collapse::WideTree;
 use super::super::node::Node;
 use super::super::places::Places;
 use super::super::quad::Quad;
 use super::super::store::Store;
+use super::super::wide::WideTree;
 use super::super::{Bvh8, Leaves, PhantomData, Wide};
 use super::check::Content;
 use super::fault::{Found, StructureFileError};
@@ -89,10 +89,10 @@ impl Loaded {
             nodes,
             depth: header.depth as usize,
         };
-        let reach = Reach::of(&header.bounds);
+        let (leaves, reach) = (Leaves::Places(quads.clone()), Reach::of(&header.bounds));
         Ok(Self {
             structure: Bvh8 {
-                tree: Wide::new(tree, Leaves::Places(quads.clone()), &reach),
+                tree: Wide::new(tree, leaves, &reach, header.repeats),
                 care: PhantomData,
             },
             places: Places {

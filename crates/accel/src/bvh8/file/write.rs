@@ -30,6 +30,7 @@ impl Wide {
             nodes: self.tree.nodes.len() as u32,
             quads: quads.len() as u32,
             triangles,
+            repeats: self.repeats,
             depth: self.tree.depth as u32,
             root: self.tree.root,
             nodes_sum: sum(nodes),

@@ -2,13 +2,15 @@
 
 use ombra_geometry::{EdgeRule, Hit, Ray};
 
+use super::super::node::{Child, Node};
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
 use super::level::{Lanes, Level, Portable};
+use super::lists::{BoxRay, entered, readied};
+use super::many::many;
 use super::ray::{Near, SingleRay};
-use super::stream::stream;
 use super::walk::{Any, Closest, Found, Said, Tree, walk};
-use crate::{AnyHit, Statistics};
+use crate::{AnyHit, Statistics, TraversalRay};
 
 /// Makes of each kernel one function a level, and one that chooses.
 macro_rules! kernels {
@@ -79,6 +81,10 @@ kernels! {
     fn search_counted(tree: &Tree<'_>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
     /// Whether there is a hit; `None` if this ray is not for the kernels.
     fn any(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> = any_hit;
+    /// A ray made ready for a walk to lists; `None` if boxes are to be tested in double precision.
+    fn ready(ray: &TraversalRay, near: &Near) -> Option<BoxRay> = readied;
+    /// One node of a walk to lists.
+    fn enter(node: &Node, ray: &BoxRay, t_max: f32, to: *mut Child, entries: *mut f32) -> usize = entered;
 }
 
 #[inline(always)]
@@ -139,7 +145,7 @@ unsafe fn closest_hits<L: Lanes>(
         hits[index] = found.some().map(|found| found.candidate().hit());
     };
     // SAFETY: the caller's promise.
-    unsafe { stream::<L, Closest>(tree, near, rays, answer, slow) }
+    unsafe { many::<L, Closest>(tree, near, rays, answer, slow) }
 }
 
 #[inline(always)]
@@ -152,5 +158,5 @@ unsafe fn any_hits<L: Lanes>(
 ) {
     let answer = |index: usize, found: Found| hits[index] = found.some().is_some();
     // SAFETY: the caller's promise.
-    unsafe { stream::<L, Any>(tree, near, rays, answer, slow) }
+    unsafe { many::<L, Any>(tree, near, rays, answer, slow) }
 }

@@ -6,12 +6,16 @@
 
 mod dispatch;
 mod level;
+mod lists;
+mod many;
+mod packet;
 mod ray;
 mod stream;
 mod walk;
 
 pub use level::Level;
 
-pub(super) use dispatch::{any, any_many, closest, closest_many, search, search_counted};
+pub(super) use dispatch::{any, any_many, closest, closest_many, ready, search, search_counted};
+pub(super) use lists::walk_lists;
 pub(super) use ray::{Near, SingleRay};
 pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree, stack};

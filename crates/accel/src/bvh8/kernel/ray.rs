@@ -23,21 +23,21 @@ use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
 use crate::{Reach, TraversalRay};
 
 /// The pad for each unit of the distance to the farthest corner.
-const PAD: f32 = 21.0 * f32::EPSILON;
+pub(super) const PAD: f32 = 21.0 * f32::EPSILON;
 /// The pad for each unit of the largest coordinate of the origin.
-const PAD_AT: f32 = 5.0 * f32::EPSILON;
+pub(super) const PAD_AT: f32 = 5.0 * f32::EPSILON;
 /// A component of the direction counts as at least this part of the largest one.
-const LEAST: f32 = 1.0 / (1 << 30) as f32;
+pub(super) const LEAST: f32 = 1.0 / (1 << 30) as f32;
 
 /// A structure as the making of rays sees it: what [`Reach`] says, in single precision and safely
 /// on the side of "no".
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    centre: [f32; 4],
+    pub(super) centre: [f32; 4],
     /// No corner is further from the centre than this.
-    half: f32,
+    pub(super) half: f32,
     /// A ray from up to here is near; negative if none is.
-    limit: f32,
+    pub(super) limit: f32,
 }
 
 /// Coordinates beyond this are left to double precision: squares of what is computed with them may
@@ -129,8 +129,7 @@ impl SingleRay {
         let sum = (ox + oy + oz) * 0.0 + (size[0] + size[1] + size[2]);
         let plain = (away <= near.limit)
             & (sum <= 3e10)
-            & (unit >= 1e-10)
-            & (unit <= 1e10)
+            & (1e-10..=1e10).contains(&unit)
             & (ray.t_min <= ray.t_max);
         if !plain {
             return None;
@@ -166,13 +165,13 @@ impl SingleRay {
 
 /// Four numbers by their places.
 #[inline(always)]
-fn each(of: impl Fn(usize) -> f32) -> [f32; 4] {
+pub(super) fn each(of: impl Fn(usize) -> f32) -> [f32; 4] {
     [of(0), of(1), of(2), of(3)]
 }
 
 /// The largest of the first three.
 #[inline(always)]
-fn largest([x, y, z, _]: [f32; 4]) -> f32 {
+pub(super) fn largest([x, y, z, _]: [f32; 4]) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     larger(larger(x, y), z)
 }

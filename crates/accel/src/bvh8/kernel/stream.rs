@@ -50,8 +50,8 @@ struct Under {
     sheared: [MaybeUninit<[f32; 8]>; 9],
 }
 
-/// Walks with each of many rays, and tells the answers by the numbers of the rays, in no promised
-/// order. `slow` is told which rays are not for the kernels.
+/// Walks with each of the chosen rays, and tells the answers by the numbers of the rays, in no
+/// promised order. `slow` is told which rays are not for the kernels.
 ///
 /// # Safety
 /// - As for [`walk`](super::walk::walk).
@@ -60,6 +60,7 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
     tree: &Tree<'_>,
     near: &Near,
     rays: &[Ray],
+    chosen: &[u16],
     mut answer: impl FnMut(usize, Found),
     slow: &mut dyn FnMut(usize),
 ) {
@@ -69,7 +70,7 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
     let mut children = [const { MaybeUninit::<Child>::uninit() }; FLIGHT * STACK];
     let mut entries = [const { MaybeUninit::<f32>::uninit() }; FLIGHT * STACK];
     let stack = tree.stack.min(STACK);
-    let mut next = 0;
+    let mut chosen = chosen.iter();
     // The slots whose rays are at nodes, at leaves, at their end, and the free ones: a bit each.
     let (mut at_nodes, mut at_leaves, mut over) = (0_u32, 0_u32, 0_u32);
     let mut free = ALL;
@@ -83,7 +84,14 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
         loop {
             while free != 0 {
                 let slot = free.trailing_zeros();
-                let begun = begin(tree, near, rays, &mut next, slow, flight.add(slot as usize));
+                let begun = begin(
+                    tree,
+                    near,
+                    rays,
+                    &mut chosen,
+                    slow,
+                    flight.add(slot as usize),
+                );
                 if !begun {
                     break;
                 }
@@ -181,14 +189,13 @@ unsafe fn begin(
     tree: &Tree<'_>,
     near: &Near,
     rays: &[Ray],
-    next: &mut usize,
+    chosen: &mut std::slice::Iter<'_, u16>,
     slow: &mut dyn FnMut(usize),
     slot: *mut Under,
 ) -> bool {
-    while let Some(ray) = rays.get(*next) {
-        let index = *next;
-        *next += 1;
-        let Some(ready) = SingleRay::new(ray, near) else {
+    for &number in chosen {
+        let index = usize::from(number);
+        let Some(ready) = SingleRay::new(&rays[index], near) else {
             slow(index);
             continue;
         };

@@ -246,12 +246,12 @@ unsafe fn splat<L: Lanes>(x: f32, y: f32, z: f32) -> [L; 3] {
 /// The test of eight boxes.
 #[derive(Clone, Copy)]
 pub(super) struct Slabs<L> {
-    inverse: [L; 3],
-    near: [L; 3],
-    far: [L; 3],
-    t_min: L,
-    enter: [usize; 3],
-    leave: [usize; 3],
+    pub(super) inverse: [L; 3],
+    pub(super) near: [L; 3],
+    pub(super) far: [L; 3],
+    pub(super) t_min: L,
+    pub(super) enter: [usize; 3],
+    pub(super) leave: [usize; 3],
 }
 
 impl<L: Lanes> Slabs<L> {
@@ -335,7 +335,7 @@ unsafe fn corners<L: Lanes>(
 /// # Safety
 /// - See [`walk`].
 #[inline(always)]
-unsafe fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
+pub(super) unsafe fn edge<L: Lanes>(p: [L; 3], q: [L; 3]) -> L {
     // SAFETY: the caller's promise.
     unsafe { p[0].times(q[1]).minus(p[1].times(q[0])) }
 }

@@ -2,13 +2,12 @@
 
 use std::fmt::Write as _;
 
+use ombra_study::html::{self, document, escaped};
+
 use super::report::{Report, Row, grouped, percent};
 
 const STYLE: &str = "
-:root { color-scheme: light dark; --line: #8886; --wipe: 50%; }
-body { font: 16px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 72rem; padding: 1rem; }
-h1 { font-size: 1.4rem; margin: 0 0 .5rem; }
-h2 { font-size: 1.1rem; margin: 1.5rem 0 .5rem; }
+:root { --wipe: 50%; }
 .parts { display: flex; flex-wrap: wrap; gap: 1.5rem; align-items: flex-start; }
 .pictures { flex: 2 1 30rem; min-width: 0; }
 .numbers { flex: 1 1 16rem; min-width: 0; }
@@ -19,12 +18,7 @@ h2 { font-size: 1.1rem; margin: 1.5rem 0 .5rem; }
   margin-left: -1px; background: #fff; box-shadow: 0 0 0 1px #000; pointer-events: none; }
 .ends { display: flex; justify-content: space-between; gap: 1rem; font-size: .9rem; }
 input[type=range] { width: 100%; margin: .5rem 0 0; }
-dl { margin: 0; } dt { font-size: .9rem; opacity: .8; } dd { margin: 0 0 .6rem; font-weight: 600; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: .9rem; }
-th, td { padding: .25rem .6rem; border-bottom: 1px solid var(--line); text-align: right;
-  font-variant-numeric: tabular-nums; white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; }
-figure { margin: 1rem 0 0; } figure img { width: 100%; height: auto; background: #000; }
+figure img { width: 100%; height: auto; background: #000; }
 ";
 
 const SCRIPT: &str = "
@@ -45,18 +39,8 @@ pub(super) fn html(report: &Report<'_>, raster: &str, whitted: &str, difference:
     let numbers = numbers(report);
     let resolutions = table("The more pixels", "picture", &report.resolutions);
     let primitives = table("The more triangles", "scene", &report.primitives);
-    format!(
-        "<!doctype html>
-<html lang=\"en\">
-<head>
-<meta charset=\"utf-8\">
-<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">
-<title>{scene}: raster and rays</title>
-<style>{STYLE}</style>
-</head>
-<body>
-<main>
-<h1>{scene}: two loops, one scene</h1>
+    let content = format!(
+        "<h1>{scene}: two loops, one scene</h1>
 <div class=\"parts\">
 <section class=\"pictures\" aria-label=\"Pictures\">
 <div class=\"wipe\">
@@ -83,13 +67,11 @@ pub(super) fn html(report: &Report<'_>, raster: &str, whitted: &str, difference:
 <p>Tests at one sample a pixel. Without help either loop tests every primitive with every pixel; that
 only the pixels between its edges are looked at helps the rasterizer, the structure ({accel}) helps the rays.</p>
 {resolutions}{primitives}</section>
-</main>
-<script>{SCRIPT}</script>
-</body>
-</html>
 ",
         accel = report.accel,
-    )
+    );
+    let title = format!("{}: raster and rays", report.scene);
+    document(&title, STYLE, &content, Some(SCRIPT))
 }
 
 fn numbers(report: &Report<'_>) -> String {
@@ -149,45 +131,16 @@ fn numbers(report: &Report<'_>) -> String {
 }
 
 fn table(caption: &str, first: &str, rows: &[Row]) -> String {
-    let mut text = format!(
-        "<h2>{caption}</h2>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\">\n<table>\n<thead><tr><th scope=\"col\">{first}</th>"
-    );
-    for (title, _) in rows.first().map(Row::columns).into_iter().flatten() {
-        let _ = write!(text, "<th scope=\"col\">{title}</th>");
-    }
-    text += "</tr></thead>\n<tbody>\n";
-    for row in rows {
-        let _ = write!(text, "<tr><th scope=\"row\">{}</th>", escaped(&row.what));
-        for (_, number) in row.columns() {
-            let _ = write!(text, "<td>{}</td>", grouped(number));
-        }
-        text += "</tr>\n";
-    }
-    text + "</tbody>\n</table>\n</div>\n"
-}
-
-/// Text that means itself in HTML, also within quotes.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            '\'' => escaped += "&#39;",
-            _ => escaped.push(c),
-        }
-    }
-    escaped
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escaped;
-
-    #[test]
-    fn a_name_cannot_end_what_it_stands_in() {
-        assert_eq!(escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
-    }
+    let columns = rows.first().map(Row::columns);
+    let titles = columns.iter().flatten().map(|(title, _)| *title);
+    let heads: Vec<_> = std::iter::once(first).chain(titles).collect();
+    let cells = |row: &Row| {
+        let numbers = row.columns().map(|(_, number)| grouped(number));
+        std::iter::once(row.what.clone()).chain(numbers).collect()
+    };
+    let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    format!(
+        "<h2>{caption}</h2>\n{}",
+        html::table(caption, &heads, &rows)
+    )
 }

@@ -8,6 +8,7 @@ use ombra::pipeline::Cpu;
 use ombra::render::Settings;
 use ombra::render::compare::{ColourAgreement, Comparison, Operations};
 use ombra::render::raster::TOLERANCE;
+pub(super) use ombra_study::grouped;
 use serde::Serialize;
 
 use crate::args::CompareArgs;
@@ -285,19 +286,6 @@ pub(super) fn percent(part: u64, whole: u64) -> String {
     format!("{:.3} %", percent.min(99.999))
 }
 
-/// A number with a thin gap between its thousands.
-pub(super) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -308,12 +296,5 @@ mod tests {
         assert_eq!(percent(9_999_999, 10_000_000), "99.999 %");
         assert_eq!(percent(1, 3), "33.333 %");
         assert_eq!(percent(0, 0), "100 %");
-    }
-
-    #[test]
-    fn thousands_stand_apart() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(grouped(1_234_567), "1 234 567");
     }
 }

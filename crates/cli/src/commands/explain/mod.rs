@@ -9,6 +9,7 @@ mod model;
 mod number;
 mod part;
 mod path;
+mod reading;
 mod side;
 mod solid;
 mod text;
@@ -262,9 +263,15 @@ impl Stage {
     }
 }
 
-/// Ends with exit code 2, as for any other word that cannot be understood.
+/// Ends with exit code 2 and the usage of this command, as for any other word that cannot be
+/// understood.
 pub(crate) fn wrong_usage(message: &str) -> ! {
-    Cli::command()
+    let mut cli = Cli::command();
+    // So that commands know their whole names.
+    cli.build();
+    let explain = cli.find_subcommand("explain").cloned();
+    explain
+        .unwrap_or(cli)
         .error(ErrorKind::ValueValidation, message)
         .exit()
 }

@@ -1,17 +1,12 @@
 //! One side of a comparison: what to render, or a file with a tree that was written before.
 
-use std::fs;
-
-use anyhow::{Context as _, bail};
 use ombra::accel::StructureKind;
 use ombra::geometry::triangle::TriangleTest;
 use ombra::render::{IntegratorKind, MAX_DEPTH, MAX_SPP};
 
 use super::args::ExplainArgs;
-use super::document::{Document, FORMAT};
-
-/// The most bytes of a file with a tree.
-const MAX_BYTES: u64 = 1 << 30;
+use super::document::Document;
+use super::reading::read;
 
 /// What decides a picture of a scene besides its size.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +87,7 @@ pub(crate) fn side(text: &str, base: &Choice) -> anyhow::Result<Result<Side, Wro
     if text == "this" {
         return Ok(Ok(Side::Render(base.clone())));
     }
-    if fs::exists(text).unwrap_or(false) {
+    if std::fs::exists(text).unwrap_or(false) {
         return Ok(Ok(Side::File(Box::new(read(text)?))));
     }
     if !text.contains('=') {
@@ -113,43 +108,6 @@ pub(crate) fn side(text: &str, base: &Choice) -> anyhow::Result<Result<Side, Wro
         };
     }
     Ok(Ok(Side::Render(choice)))
-}
-
-fn read(path: &str) -> anyhow::Result<Document> {
-    let bytes = fs::metadata(path).with_context(|| path.to_owned())?.len();
-    if bytes > MAX_BYTES {
-        bail!("{path}: {bytes} bytes, over the limit of {MAX_BYTES}; write it with --sample K");
-    }
-    let text = fs::read_to_string(path).with_context(|| format!("{path}: cannot be read"))?;
-    let document: Document = serde_json::from_str(&text).map_err(|error| {
-        anyhow::anyhow!("{path}: not what `ombra explain --json` writes: {error}")
-    })?;
-    if document.heading.format != FORMAT {
-        bail!(
-            "{path}: written in format {}, and this version reads format {FORMAT}",
-            document.heading.format
-        );
-    }
-    for sample in &document.samples {
-        let mut nested: Vec<u32> = Vec::with_capacity(sample.rays.len());
-        for (index, ray) in sample.rays.iter().enumerate() {
-            let above = ray.parent.and_then(|parent| nested.get(parent));
-            nested.push(above.map_or(0, |above| above + 1));
-            if nested[index] > MAX_DEPTH + 1 {
-                bail!(
-                    "{path}: sample {}: ray {index} is nested deeper than {MAX_DEPTH} bounces allow",
-                    sample.sample
-                );
-            }
-            if ray.ray != index || ray.parent.is_some_and(|parent| parent >= index) {
-                bail!(
-                    "{path}: sample {}: ray {index} is out of order; rays are numbered from 0, each after its parent",
-                    sample.sample
-                );
-            }
-        }
-    }
-    Ok(document)
 }
 
 fn by_name<T: Copy>(

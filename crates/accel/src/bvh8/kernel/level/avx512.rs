@@ -5,12 +5,13 @@
 
 use std::arch::x86_64::{
     __m256, __m256i, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_cmp_ps_mask,
-    _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_maskz_compress_epi32,
-    _mm256_maskz_compress_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
-    _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps, _mm256_set1_epi32, _mm256_set1_ps,
-    _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps, _mm256_storeu_si256, _mm256_sub_ps,
-    _mm512_add_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd, _mm512_div_pd,
-    _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd, _mm512_sub_pd,
+    _mm256_div_ps, _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_mask_storeu_ps,
+    _mm256_maskz_compress_epi32, _mm256_maskz_compress_ps, _mm256_max_ps, _mm256_min_ps,
+    _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
+    _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
+    _mm256_storeu_si256, _mm256_sub_ps, _mm512_add_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps,
+    _mm512_cvtps_pd, _mm512_div_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd,
+    _mm512_sub_pd,
 };
 
 use super::super::super::node::Child;
@@ -61,6 +62,18 @@ impl Lanes for Avx512 {
     unsafe fn times(self, other: Self) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm256_mul_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn over(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_div_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn store_where(self, bits: u32, to: *mut f32) {
+        // SAFETY: as above.
+        unsafe { _mm256_mask_storeu_ps(to, bits as u8, self.0) }
     }
 
     #[inline(always)]

@@ -52,6 +52,18 @@ pub(crate) trait Lanes: Copy {
     /// - As above.
     unsafe fn times(self, other: Self) -> Self;
 
+    /// `self / other`.
+    ///
+    /// # Safety
+    /// - As above.
+    unsafe fn over(self, other: Self) -> Self;
+
+    /// To memory, those numbers whose bits are set.
+    ///
+    /// # Safety
+    /// - Eight numbers may be read and written at `to`.
+    unsafe fn store_where(self, bits: u32, to: *mut f32);
+
     /// `self · factor + addend`, rounded once or twice.
     ///
     /// # Safety

@@ -45,6 +45,21 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    unsafe fn over(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    unsafe fn store_where(self, bits: u32, to: *mut f32) {
+        for k in 0..8 {
+            if bits >> k & 1 == 1 {
+                // SAFETY: the caller's promise.
+                unsafe { *to.add(k) = self.0[k] };
+            }
+        }
+    }
+
+    #[inline(always)]
     unsafe fn multiply_add(self, factor: Self, addend: Self) -> Self {
         Self(std::array::from_fn(|k| {
             self.0[k] * factor.0[k] + addend.0[k]

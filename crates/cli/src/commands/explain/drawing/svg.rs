@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use ombra_study::html::escaped;
+
 use super::view::{Place, View};
 
 /// A page that grows.
@@ -134,30 +136,4 @@ pub(crate) struct Stroke<'a> {
     pub(crate) width: f64,
     pub(crate) dashes: &'a str,
     pub(crate) fades: bool,
-}
-
-/// Text as XML has it; what XML cannot hold is left out.
-pub(crate) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escaped;
-
-    #[test]
-    fn names_cannot_end_the_text_that_they_are_in() {
-        assert_eq!(escaped("a<b>&\"c\"\u{1}"), "a&lt;b&gt;&amp;&quot;c&quot; ");
-    }
 }

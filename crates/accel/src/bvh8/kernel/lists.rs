@@ -1,0 +1,200 @@
+//! The walk of one ray down a tree whose leaves are lists of primitives of any kind.
+//!
+//! Boxes are tested as for triangles, eight at once in single precision; what a leaf lists is shown to
+//! a visitor, which tests it in whatever precision it likes. The kernel is one node's worth of work, so
+//! that visitors need not be compiled once for each level of instructions.
+//!
+//! # Why no box is missed
+//! The reasons are those of `ray.rs`, but that the ray comes in double precision and its t is not
+//! rounded when a hit is found. Rounding the origin moves a plane by half of ε |o|, rounding the
+//! direction by half of ε F, and the range of t is rounded outward. With the 12 ε F of `hit_pad`, the
+//! 2⁻²⁹ F of small components and the 3 ε (|o| + F) of the test that is below
+//! 16 ε F + 4 ε (|o| + F), which the pads of `ray.rs` are made for.
+
+use std::mem::MaybeUninit;
+use std::ops::ControlFlow;
+
+use super::super::Wide;
+use super::super::node::{Child, Node};
+use super::dispatch::enter;
+use super::level::Lanes;
+use super::ray::{LEAST, Near, PAD, PAD_AT, each, largest};
+use super::walk::{STACK, Slabs};
+use crate::{Span, TraversalRay, Visitor};
+
+/// A ray made ready for boxes alone. Its fields mean what those of
+/// [`SingleRay`](super::SingleRay) do.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BoxRay {
+    inverse: [f32; 4],
+    near: [f32; 4],
+    far: [f32; 4],
+    enter: [u32; 3],
+    leave: [u32; 3],
+    octant: u32,
+    t_min: f32,
+}
+
+impl BoxRay {
+    /// `None` if boxes are to be tested in double precision.
+    #[inline(always)]
+    fn new(ray: &TraversalRay, near: &Near) -> Option<Self> {
+        let [ox, oy, oz] = ray.ray.origin.cast::<f32>().to_array();
+        let [dx, dy, dz] = ray.ray.direction.cast::<f32>().to_array();
+        let (origin, direction) = ([ox, oy, oz, 0.0], [dx, dy, dz, 1.0]);
+        let away = largest(each(|k| (origin[k] - near.centre[k]).abs()));
+        let size = each(|k| direction[k].abs());
+        let unit = largest(size);
+        // The ray is valid. What has become infinite is not near, or too large.
+        let plain = (away <= near.limit) & (1e-10..=1e10).contains(&unit);
+        if !plain {
+            return None;
+        }
+        let at = largest(each(|k| origin[k].abs()));
+        let pad = PAD * (away + near.half) + PAD_AT * at + f32::MIN_POSITIVE;
+        let least = LEAST * unit;
+        let larger = each(|k| if size[k] > least { size[k] } else { least });
+        let inverse = each(|k| 1.0 / larger[k].copysign(direction[k]));
+        let pad = each(|k| pad.copysign(direction[k]));
+        let octant = direction.map(|d| d.to_bits() >> 31);
+        Some(Self {
+            inverse,
+            near: each(|k| -(origin[k] + pad[k]) * inverse[k]),
+            far: each(|k| -(origin[k] - pad[k]) * inverse[k]),
+            enter: [24 * octant[0], 8 + 24 * octant[1], 16 + 24 * octant[2]],
+            leave: [
+                24 - 24 * octant[0],
+                32 - 24 * octant[1],
+                40 - 24 * octant[2],
+            ],
+            octant: octant[0] | octant[1] << 1 | octant[2] << 2,
+            t_min: at_most(ray.ray.t_min),
+        })
+    }
+}
+
+/// [`BoxRay::new`], for each level.
+///
+/// # Safety
+/// - The processor has the instructions of `L`.
+#[inline(always)]
+pub(super) unsafe fn readied<L: Lanes>(ray: &TraversalRay, near: &Near) -> Option<BoxRay> {
+    BoxRay::new(ray, near)
+}
+
+/// A single that is not above a number, and next to it.
+#[inline]
+fn at_most(x: f64) -> f32 {
+    -at_least(-x)
+}
+
+/// A single that is not below a number, and next to it.
+#[inline]
+fn at_least(x: f64) -> f32 {
+    // Rounding takes away less than half of what is added. Below all finite singles, or NaN for −∞, it
+    // is the least of them.
+    let above = (x + x.abs() * f64::from(f32::EPSILON) + f64::from(f32::MIN_POSITIVE)) as f32;
+    if above >= f32::MIN { above } else { f32::MIN }
+}
+
+/// Walks down a tree and shows the visitor what the leaves list.
+#[inline]
+pub(crate) fn walk_lists<V: Visitor>(
+    tree: &Wide,
+    list: &[u32],
+    ray: &BoxRay,
+    visitor: &mut V,
+) -> ControlFlow<()> {
+    let (nodes, level) = (&tree.tree.nodes[..], tree.level);
+    let mut children = [const { MaybeUninit::<Child>::uninit() }; STACK];
+    let mut entries = [const { MaybeUninit::<f32>::uninit() }; STACK];
+    let children = children.as_mut_ptr().cast::<Child>();
+    let entries = entries.as_mut_ptr().cast::<f32>();
+    let mut t_max = at_least(visitor.t_max());
+    let mut waiting = 0;
+    let mut child = tree.tree.root;
+    loop {
+        if child.is_leaf() {
+            visitor.leaf(&list[child.range()], Span::ALL)?;
+            t_max = at_least(visitor.t_max());
+        } else {
+            visitor.node();
+            let node = &nodes[child.index()];
+            // SAFETY: no node lies deeper than `MAX_DEPTH`, so at most so many times seven siblings
+            // wait, and there are places for eight more.
+            let (to, entries) = unsafe { (children.add(waiting), entries.add(waiting)) };
+            waiting += enter(level, node, ray, t_max, to, entries);
+        }
+        loop {
+            if waiting == 0 {
+                return ControlFlow::Continue(());
+            }
+            waiting -= 1;
+            // SAFETY: what waits was written.
+            let entry = unsafe {
+                child = *children.add(waiting);
+                *entries.add(waiting)
+            };
+            if entry <= t_max {
+                break;
+            }
+        }
+    }
+}
+
+/// Tests the boxes of a node: writes the children that are entered and where, the nearest last, and
+/// counts them.
+///
+/// # Safety
+/// - The processor has the instructions of `L`.
+/// - Eight may be written at `to` and at `entries`.
+#[inline(always)]
+pub(super) unsafe fn entered<L: Lanes>(
+    node: &Node,
+    ray: &BoxRay,
+    t_max: f32,
+    to: *mut Child,
+    entries: *mut f32,
+) -> usize {
+    let BoxRay {
+        inverse: [ix, iy, iz, _],
+        near: [nx, ny, nz, _],
+        far: [fx, fy, fz, _],
+        enter,
+        leave,
+        octant,
+        t_min,
+    } = *ray;
+    // SAFETY: the caller's promise.
+    unsafe {
+        let slabs = Slabs::<L> {
+            inverse: [L::splat(ix), L::splat(iy), L::splat(iz)],
+            near: [L::splat(nx), L::splat(ny), L::splat(nz)],
+            far: [L::splat(fx), L::splat(fy), L::splat(fz)],
+            t_min: L::splat(t_min),
+            enter: [enter[0] as usize, enter[1] as usize, enter[2] as usize],
+            leave: [leave[0] as usize, leave[1] as usize, leave[2] as usize],
+        };
+        let (near, far) = slabs.entries(node, L::splat(t_max));
+        let order = node.order[(octant & 7) as usize];
+        let pushed = near.push(far, order, node.child.as_ptr(), to, entries);
+        pushed.count_ones() as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_rounded_outward() {
+        assert_eq!(at_least(f64::INFINITY), f32::INFINITY);
+        assert_eq!(at_least(f64::NEG_INFINITY), f32::MIN);
+        for x in [0.1, -0.1, 1.0, 1e300, -1e300, 1e-300, 0.0] {
+            assert!(
+                f64::from(at_most(x)) <= x && x <= f64::from(at_least(x)),
+                "{x}"
+            );
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Whether a wide tree is one. For tests: it stops at the first thing that is wrong.
+
+use ombra_geometry::Aabb;
+
+use super::kernel::MAX_DEPTH;
+use super::node::{Child, MAX_LEAF};
+use super::quad::Quad;
+use super::{Leaves, Wide};
+
+/// What a valid tree is like.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Valid {
+    /// How many primitives leaves name, each as often as it is named.
+    pub(super) named: usize,
+    pub(super) leaves: usize,
+    pub(super) depth: usize,
+}
+
+/// Holds a tree against the boxes of its primitives, by number; those with an empty box are in no
+/// leaf. If some are in several leaves, each leaf's box is held to meet its primitives' boxes only.
+pub(super) fn validate(tree: &Wide, boxes: &[Aabb]) -> Valid {
+    let mut walk = Walk {
+        tree,
+        boxes,
+        found: vec![Vec::new(); boxes.len()],
+        valid: Valid::default(),
+    };
+    walk.child(tree.tree.root, &Aabb::UNBOUNDED, 1);
+    for (primitive, (bounds, found)) in boxes.iter().zip(&walk.found).enumerate() {
+        if bounds.is_empty() {
+            assert!(found.is_empty(), "{primitive} is not to be found");
+            continue;
+        }
+        assert!(!found.is_empty(), "{primitive} is in no leaf");
+        assert!(
+            tree.repeats || found.len() == 1,
+            "{primitive} is in several leaves"
+        );
+        let all = found.iter().fold(Aabb::EMPTY, |all, part| all.union(*part));
+        assert!(all.encloses(bounds), "{primitive} sticks out of its leaves");
+    }
+    assert!(walk.valid.depth <= tree.tree.depth && tree.tree.depth <= MAX_DEPTH);
+    walk.valid
+}
+
+struct Walk<'a> {
+    tree: &'a Wide,
+    boxes: &'a [Aabb],
+    /// By primitive: the boxes of the leaves that it is in.
+    found: Vec<Vec<Aabb>>,
+    valid: Valid,
+}
+
+impl Walk<'_> {
+    fn child(&mut self, child: Child, bounds: &Aabb, depth: usize) {
+        if child.is_leaf() {
+            return self.leaf(child, bounds);
+        }
+        self.valid.depth = self.valid.depth.max(depth);
+        let node = &self.tree.tree.nodes[child.index()];
+        for order in node.order {
+            let places = (0..8).fold(0, |places, k| places | 1 << (order >> (3 * k) & 7));
+            assert_eq!(places, 255, "an order names each child once");
+        }
+        for (own, below) in node.children() {
+            assert!(bounds.encloses(&own), "a child sticks out of its node");
+            self.child(below, &own, depth + 1);
+        }
+    }
+
+    fn leaf(&mut self, leaf: Child, bounds: &Aabb) {
+        let list: Vec<u32> = match &self.tree.leaves {
+            Leaves::Lists(list) => list[leaf.range()].to_vec(),
+            Leaves::Quads(quads) | Leaves::Places(quads) => {
+                let quads = &quads[leaf.quad()..leaf.quad() + leaf.places() / 4];
+                Quad::triangles(quads).to_vec()
+            }
+        };
+        assert!((1..=MAX_LEAF).contains(&list.len()));
+        self.valid.leaves += 1;
+        self.valid.named += list.len();
+        for primitive in list {
+            let own = self.boxes[primitive as usize];
+            let meets = !own.intersection(*bounds).is_empty();
+            assert!(meets, "a leaf names what does not lie in it");
+            let root = *bounds == Aabb::UNBOUNDED;
+            let part = if root { own } else { *bounds };
+            assert!(
+                self.tree.repeats || part.encloses(&own),
+                "{primitive} sticks out"
+            );
+            self.found[primitive as usize].push(part);
+        }
+    }
+}
