@@ -6,9 +6,10 @@
 //! 2. Boxes are finite or the one around nothing, and lie in the box around them; orders name each
 //!    child once; leaves hold triangles (`node`, `leaf`).
 //!
-//! Nothing here follows a path down the tree: each part is one pass over lists, for several threads
-//! but for `links`.
+//! Nothing here follows a path down the tree: each part is one pass over lists, the larger one for
+//! several threads.
 
+use crc32fast::Hasher;
 use ombra_geometry::Aabb;
 use rayon::prelude::*;
 
@@ -18,9 +19,11 @@ use super::fault::{Found, Part, StructureFault};
 use super::header::{AT_BOUNDS, AT_NODES_SUM, AT_QUADS_SUM, AT_ROOT, HEADER, Header};
 use super::links;
 
-/// Bytes that are summed up at once, and the nodes that are looked at by one task.
+/// Bytes that are summed up at once where nothing else is done.
 const BYTES: usize = 1 << 20;
-const NODES: usize = 1 << 10;
+/// Nodes a task, with their part of the quads: so few that they are in the cache of the processor when
+/// they are looked at for the second time.
+const NODES: usize = 1 << 9;
 
 /// Nodes and quads as a file has them, with its header.
 #[derive(Clone, Copy)]
@@ -32,17 +35,27 @@ pub(super) struct Content<'a> {
 
 /// Adds up bytes by CRC-32.
 pub(super) fn sum(bytes: &[u8]) -> u32 {
-    let hashed = |bytes: &[u8]| {
-        let mut hasher = crc32fast::Hasher::new();
-        hasher.update(bytes);
-        hasher
-    };
-    let joined = |mut a: crc32fast::Hasher, b| {
-        a.combine(&b);
-        a
-    };
     let parts = bytes.par_chunks(BYTES).map(hashed);
-    parts.reduce(crc32fast::Hasher::new, joined).finalize()
+    parts.reduce(Hasher::new, joined).finalize()
+}
+
+fn hashed(bytes: &[u8]) -> Hasher {
+    let mut hasher = Hasher::new();
+    hasher.update(bytes);
+    hasher
+}
+
+fn joined(mut a: Hasher, b: Hasher) -> Hasher {
+    a.combine(&b);
+    a
+}
+
+/// What a task found, or several that lie side by side.
+struct Seen {
+    nodes: Hasher,
+    quads: Hasher,
+    /// The first thing that is wrong.
+    fault: Option<Found>,
 }
 
 /// The byte at which a node begins.
@@ -51,22 +64,29 @@ pub(super) const fn at_node(index: usize) -> u64 {
 }
 
 impl Content<'_> {
-    /// The first thing that is wrong, if anything is.
+    /// The first thing that is wrong, if anything is; damage before all else.
     pub(super) fn check(&self) -> Result<(), Found> {
-        let Header {
-            nodes_sum,
-            quads_sum,
-            ..
-        } = *self.header;
-        let (nodes, quads) = (
-            bytemuck::cast_slice(self.nodes),
-            bytemuck::cast_slice(self.quads),
-        );
-        for (part, bytes, at, stated) in [
-            (Part::Nodes, nodes, AT_NODES_SUM, nodes_sum),
-            (Part::Quads, quads, AT_QUADS_SUM, quads_sum),
+        let tasks = self.nodes.len().div_ceil(NODES).max(1);
+        let nothing = || Seen {
+            nodes: Hasher::new(),
+            quads: Hasher::new(),
+            fault: None,
+        };
+        let both = |a: Seen, b: Seen| Seen {
+            nodes: joined(a.nodes, b.nodes),
+            quads: joined(a.quads, b.quads),
+            fault: a.fault.or(b.fault),
+        };
+        let seen = (0..tasks)
+            .into_par_iter()
+            .map(|task| self.task(task, tasks));
+        let seen = seen.reduce(nothing, both);
+        let header = self.header;
+        for (part, sum, at, stated) in [
+            (Part::Nodes, seen.nodes, AT_NODES_SUM, header.nodes_sum),
+            (Part::Quads, seen.quads, AT_QUADS_SUM, header.quads_sum),
         ] {
-            let found = sum(bytes);
+            let found = sum.finalize();
             if found != stated {
                 let fault = StructureFault::Checksum {
                     part,
@@ -77,16 +97,23 @@ impl Content<'_> {
             }
         }
         self.root()?;
-        let faulty = |(chunk, nodes): (usize, &[Node])| {
-            let mut nodes = nodes.iter().enumerate();
-            nodes.find_map(|(k, node)| self.node(chunk * NODES + k, node).err())
-        };
-        let chunks = self.nodes.par_chunks(NODES).enumerate();
-        // The first one, whichever thread finds it.
-        if let Some(found) = chunks.find_map_first(faulty) {
-            return Err(found);
-        }
+        seen.fault.map_or(Ok(()), Err)?;
         links::check(self)
+    }
+
+    /// Looks at some nodes and their leaves, and adds up as large a part of all quads: which in files
+    /// that were saved is about those of the leaves.
+    fn task(&self, task: usize, tasks: usize) -> Seen {
+        let first = (task * NODES).min(self.nodes.len());
+        let nodes = &self.nodes[first..(first + NODES).min(self.nodes.len())];
+        let quad = |task: usize| (task as u64 * self.quads.len() as u64 / tasks as u64) as usize;
+        let quads = &self.quads[quad(task)..quad(task + 1)];
+        let mut numbered = (first..).zip(nodes);
+        Seen {
+            nodes: hashed(bytemuck::cast_slice(nodes)),
+            quads: hashed(bytemuck::cast_slice(quads)),
+            fault: numbered.find_map(|(index, node)| self.node(index, node).err()),
+        }
     }
 
     /// The root, and the bounds around it.
@@ -163,9 +190,9 @@ impl Content<'_> {
         };
         let numbers: &[f32] = bytemuck::cast_slice(quads);
         let wrong = if count == 1 {
-            places::<4>(numbers, self.header.triangles)
+            wrong_place::<4>(numbers, self.header.triangles)
         } else {
-            places::<8>(numbers, self.header.triangles)
+            wrong_place::<8>(numbers, self.header.triangles)
         };
         wrong.map_or(Ok(()), |place| Err(StructureFault::Triangle(place)))
     }
@@ -175,29 +202,48 @@ fn missing(part: Part, index: usize, count: usize) -> StructureFault {
     StructureFault::Missing { part, index, count }
 }
 
-/// Which place of a leaf with N of them holds neither a triangle nor none.
-fn places<const N: usize>(numbers: &[f32], triangles: u32) -> Option<usize> {
-    let row = |c: usize| numbers[N * c..].first_chunk::<N>().expect("ten rows");
-    // Numbers as bits without their sign, and words in place of yes and no: all places of a row go
-    // through four instructions.
-    const INFINITE: i32 = f32::INFINITY.to_bits().cast_signed();
-    let (mut not_finite, mut not_nan) = ([0_u32; N], [0_u32; N]);
-    for c in 0..9 {
-        let row = row(c);
-        for k in 0..N {
-            let size = (row[k].to_bits() & !(1 << 31)).cast_signed();
-            not_finite[k] |= u32::from(size >= INFINITE);
-            not_nan[k] |= u32::from(size <= INFINITE);
-        }
+/// Which place of a leaf with N of them holds neither a triangle nor none, or a triangle after none:
+/// kernels stop at the first place without one.
+#[inline(never)]
+fn wrong_place<const N: usize>(numbers: &[f32], triangles: u32) -> Option<usize> {
+    // Words in place of yes and no: all places of a row go through a few instructions.
+    let word = |yes: bool| if yes { u32::MAX } else { 0 };
+    let mut zero = [0.0_f32; WIDTH];
+    let mut some = [0_u32; WIDTH];
+    let mut take = |k: usize, x: f32| {
+        // Of what is not finite this is NaN, and stays it.
+        zero[k] += 0.0 * x;
+        some[k] |= word(!x.is_nan());
+    };
+    // Eight numbers at once: of four places that is two rows, and at last one.
+    let rows = numbers[..9 * N].chunks_exact(WIDTH);
+    let rest = rows.remainder();
+    for row in rows {
+        (0..WIDTH).for_each(|k| take(k, row[k]));
     }
-    let number = row(9).map(f32::to_bits);
-    // Kernels stop at the first place without a triangle.
-    let mut ended = false;
+    (0..rest.len()).for_each(|k| take(k, rest[k]));
+    for k in N..WIDTH {
+        zero[k - N] += zero[k];
+        some[k - N] |= some[k];
+    }
+    let (mut is_triangle, mut is_none) = ([0; N], [0; N]);
+    for (k, name) in numbers[9 * N..10 * N].iter().enumerate() {
+        let name = name.to_bits();
+        is_triangle[k] = word(zero[k] == 0.0) & word(name < triangles);
+        is_none[k] = !some[k] & word(name == u32::MAX);
+    }
+    let mut wrong = 0;
+    for k in 0..N {
+        wrong |= !(is_triangle[k] | is_none[k]);
+    }
+    for k in 1..N {
+        wrong |= is_triangle[k] & is_none[k - 1];
+    }
+    if wrong == 0 {
+        return None;
+    }
     (0..N).find(|&k| {
-        let is_triangle = (not_finite[k] == 0) & (number[k] < triangles);
-        let is_none = (not_nan[k] == 0) & (number[k] == u32::MAX);
-        ended |= is_none;
-        !(is_triangle | is_none) | (is_triangle & ended)
+        is_triangle[k] | is_none[k] == 0 || k > 0 && is_triangle[k] & is_none[k - 1] != 0
     })
 }
 
