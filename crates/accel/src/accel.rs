@@ -121,11 +121,11 @@ impl<P: Primitives> Accel<P> {
     /// watertight test. The file is written beside the path and renamed when it is whole.
     ///
     /// # Errors
-    /// When it is another structure, or over something else, or over triangles with infinite corners
-    /// too, or the file cannot be written; what was at the path before is still there then.
+    /// When it is another structure, or over something else, or the file cannot be written; what was
+    /// at the path before is still there then.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StructureFileError> {
         let path = path.as_ref();
-        // What has no end is not in the tree.
+        // What has no end would be left out.
         let tree = self.structure.wide().filter(|_| self.unbounded.is_empty());
         let triangles = self.primitives.len() as u32;
         let saved = tree.and_then(|tree| tree.save(path, self.bounds, triangles));

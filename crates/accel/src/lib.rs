@@ -60,7 +60,7 @@ pub use alias::StructureAlias;
 pub use bih::Bih;
 pub use brute_force::BruteForce;
 pub use bvh8::Level;
-pub use bvh8::file::{Part as StructurePart, StructureFault, StructureFileError};
+pub use bvh8::file::{OtherMesh, Part as StructurePart, StructureFault, StructureFileError};
 pub use distance::{ClosestPoint, Distances, Measured, Nearby, NoDistance, Place};
 pub use grid::Grid;
 pub use grid2::Grid2;

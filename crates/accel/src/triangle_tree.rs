@@ -8,11 +8,11 @@ use std::path::Path;
 
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 
-use crate::bvh8::file::StructureFileError;
 use crate::bvh8::file::read::Loaded;
+use crate::bvh8::file::{OtherMesh, StructureFileError};
 use crate::bvh8::places::Places;
 use crate::{
-    Accel, AnyHit, AnyStructure, Candidate, Level, Primitives as _, Statistics, Traversable,
+    Accel, AnyHit, AnyStructure, Candidate, Level, Mesh, Primitives as _, Statistics, Traversable,
 };
 
 /// A wide tree of triangles that was built and [saved](Accel::save) before: it gives the very
@@ -73,6 +73,33 @@ impl TriangleTree {
     /// When the file cannot be written; what was there before is still there then.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StructureFileError> {
         self.0.save(path)
+    }
+
+    /// The structure over its mesh, as if it had just been built: to be placed by instances, asked for
+    /// distances, [refitted](Accel::refit). It calls itself a `bvh8`, whichever kind was saved.
+    ///
+    /// Each triangle is looked at, which takes longer than to load the file.
+    ///
+    /// # Errors
+    /// When the mesh is another one.
+    pub fn with_mesh(self, mesh: Mesh) -> Result<Accel<Mesh>, OtherMesh> {
+        let Accel {
+            primitives: places,
+            mut structure,
+            reach,
+            bounds,
+            ..
+        } = self.0;
+        let triangles = mesh.watertight().ok_or(OtherMesh::Test)?;
+        if mesh.len() != places.len() {
+            let (mesh, structure) = (mesh.len(), places.len());
+            return Err(OtherMesh::Count { mesh, structure });
+        }
+        if let Some(tree) = structure.wide_mut() {
+            tree.over(triangles, &places)?;
+        }
+        drop(places);
+        Ok(Accel::of_parts(mesh, structure, reach, bounds))
     }
 
     /// How many triangles the mesh had: the number of every hit is below this.

@@ -44,11 +44,11 @@ impl Places {
         self.quads[place / 8 + at / NUMBERS].numbers[at % NUMBERS]
     }
 
-    fn corners(&self, place: u32) -> [Point3; 3] {
+    pub(super) fn corners(&self, place: u32) -> [Point3; 3] {
         [0, 3, 6].map(|k| Point3::from([k, k + 1, k + 2].map(|c| self.component(place, c))))
     }
 
-    fn number(&self, place: u32) -> u32 {
+    pub(super) fn number(&self, place: u32) -> u32 {
         self.component(place, 9).to_bits()
     }
 }

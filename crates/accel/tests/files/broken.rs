@@ -1,8 +1,12 @@
 //! Files that are wrong: each is refused with its place and reason, or does no harm.
 
-use ombra_accel::{StructureFault as Fault, StructureFileError, StructurePart as Part};
+use ombra_accel::{
+    Accel, Level, Mesh, StructureFault as Fault, StructureFileError, StructurePart as Part,
+    Traversable as _, TriangleTree,
+};
+use ombra_geometry::{Point3, Ray, Vector3};
 
-use crate::{answers, built, bytes, dish, read};
+use crate::{KINDS, answers, built, bytes, dish, rays, read, straw};
 
 const HEADER: usize = 128;
 const NODE: usize = 256;
@@ -92,21 +96,43 @@ fn a_byte_that_is_changed_is_found_by_its_checksum() {
 
 #[test]
 fn a_byte_that_is_changed_with_its_checksums_is_refused_or_does_no_harm() {
-    let file = file();
+    for kind in KINDS {
+        let accel = Accel::build(Mesh::new(straw(30)), kind);
+        changed_bytes_do_no_harm(&bytes(|path| accel.save(path)));
+    }
+    changed_bytes_do_no_harm(&file());
+}
+
+/// Sends rays through a tree, near and far, together and alone, at every level.
+fn traced(tree: &TriangleTree) {
+    let mut rays: Vec<_> = rays().into_iter().step_by(8).collect();
+    // Enough that go together for a packet.
+    let from = Point3::new(0.2, 2.0, 0.1);
+    rays.extend((0..32).map(|k| Ray::new(from, Vector3::new(0.02 * k as f32 - 0.3, -2.0, 0.1))));
+    let triangles = tree.triangles() as u32;
+    let mut hits = vec![None; rays.len()];
+    for level in Level::available() {
+        let tree = tree.clone().at_level(level);
+        tree.intersect_many(&rays, &mut hits);
+        assert!(hits.iter().flatten().all(|hit| hit.primitive.0 < triangles));
+        for (ray, hit) in rays.iter().zip(&hits) {
+            assert_eq!(tree.intersect(ray), *hit);
+        }
+    }
+}
+
+fn changed_bytes_do_no_harm(file: &[u8]) {
     let (mut loaded, mut refused) = (0, 0);
     for at in 0..file.len() {
         // All of the header and the first nodes; of the rest each byte once.
         let all: &[u8] = &[1, 2, 4, 8, 16, 32, 64, 128, 255];
         let one = [1 << (at % 8)];
         for &bits in if at < HEADER + 2 * NODE { all } else { &one } {
-            let mut file = file.clone();
+            let mut file = file.to_vec();
             file[at] ^= bits;
             match read(&summed(file)) {
                 Ok(tree) => {
-                    // All levels, single and double precision.
-                    let (hits, ..) = answers(&tree);
-                    let triangles = tree.triangles() as u32;
-                    assert!(hits.iter().flatten().all(|hit| hit.primitive.0 < triangles));
+                    traced(&tree);
                     loaded += 1;
                 }
                 Err(_) => refused += 1,
@@ -124,6 +150,8 @@ fn other_files_are_told_from_structures() {
     assert_eq!(version, (8, Fault::Version(2)));
     let other = fault(|file| file[12..16].copy_from_slice(b"kd\n\xff"));
     assert_eq!(other, (12, Fault::Structure(*b"kd\n\xff")));
+    let repeats = fault(|file| file[68] = 2);
+    assert_eq!(repeats, (68, Fault::Repeats(2)));
     let reserved = fault(|file| file[100] = 3);
     assert_eq!(reserved, (100, Fault::Reserved(3)));
 }
@@ -304,4 +332,21 @@ fn boxes_orders_and_triangles_are_looked_at() {
     assert!(matches!(corner.1, Fault::Triangle(0)), "{corner:?}");
     let fewer = fault(|file| put(file, 24, 5));
     assert!(matches!(fewer.1, Fault::Triangle(_)), "{fewer:?}");
+}
+
+#[test]
+fn a_place_without_a_triangle_before_one_with_is_refused() {
+    let quads = HEADER + NODE * word(&file(), 16) as usize;
+    let places = if word(&file(), children(&file()).1) >> 30 & 1 == 1 {
+        8
+    } else {
+        4
+    };
+    let gap = fault(|file| {
+        for component in 0..9 {
+            put(file, quads + 4 * places * component, f32::NAN.to_bits());
+        }
+        put(file, quads + 36 * places, u32::MAX);
+    });
+    assert_eq!(gap.1, Fault::Triangle(1));
 }

@@ -21,6 +21,30 @@ fn dish(cells: u32) -> TriangleMesh {
     TriangleMesh::new(positions, triangles.collect()).unwrap()
 }
 
+/// Small triangles with long ones among them: `bvh8-high` lists some of those more than once.
+fn straw(stalks: u32) -> TriangleMesh {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for k in 0..stalks {
+        let [x, y, z] = [7, 13, 29].map(|step| (step * k % 101) as f32 / 101.0 - 0.5);
+        let [along, across] = if k % 5 == 0 { [0.8, 0.6] } else { [0.02, 0.01] };
+        let corner = 3 * k;
+        positions.extend([
+            Point3::new(x, y, z),
+            Point3::new(x + along, y + 0.9 * along, z),
+            Point3::new(x, y + 0.01, z + across),
+        ]);
+        triangles.push([corner, corner + 1, corner + 2]);
+    }
+    TriangleMesh::new(positions, triangles).unwrap()
+}
+
+/// The structures that can be files.
+const KINDS: [StructureKind; 3] = [
+    StructureKind::Bvh8,
+    StructureKind::Bvh8Fast,
+    StructureKind::Bvh8High,
+];
+
 fn built(mesh: TriangleMesh) -> Accel<Mesh> {
     Accel::build(Mesh::new(mesh), StructureKind::Bvh8)
 }

@@ -23,7 +23,7 @@ pub enum StructureFileError {
     },
     /// Not a structure that can be a file.
     #[error(
-        "{}: a structure `{kind}` over these primitives cannot be saved; one that can is `bvh8`, `bvh8-fast` or `bvh8-high` over a mesh with the watertight test and without infinite corners",
+        "{}: a structure `{kind}` over these primitives cannot be saved; one that can is `bvh8`, `bvh8-fast` or `bvh8-high` over a mesh with the watertight test",
         .path.display()
     )]
     NotSaved {
@@ -133,7 +133,9 @@ pub enum StructureFault {
     #[error("a byte is {0} that has no meaning in version {VERSION} and must be 0")]
     Reserved(u8),
     /// Neither yes nor no.
-    #[error("whether triangles are listed more than once is 0 for no or 1 for yes, but {0} is stated")]
+    #[error(
+        "whether triangles are listed more than once is 0 for no or 1 for yes, but {0} is stated"
+    )]
     Repeats(u32),
     /// A box that is neither finite nor that around nothing.
     #[error(

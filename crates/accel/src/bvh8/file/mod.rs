@@ -9,7 +9,9 @@ mod fault;
 mod header;
 mod links;
 mod map;
+mod over;
 pub(crate) mod read;
 mod write;
 
 pub use fault::{Part, StructureFault, StructureFileError};
+pub use over::OtherMesh;
