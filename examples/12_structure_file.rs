@@ -6,6 +6,7 @@
 //! needed to find hits. What a program makes of a hit (normals, colours) it keeps beside it, by the
 //! numbers of the triangles.
 
+use std::path::Path;
 use std::time::Instant;
 
 use ombra_accel::{Accel, Mesh, StructureKind, Traversable, TriangleTree};
@@ -43,13 +44,12 @@ struct RoundTrip {
     load: f64,
 }
 
-fn round_trip(cells: u32, path: &str) -> anyhow::Result<RoundTrip> {
+fn round_trip(cells: u32, path: &Path) -> anyhow::Result<RoundTrip> {
     let milliseconds = |from: Instant| 1e3 * from.elapsed().as_secs_f64();
     let mesh = Mesh::new(hills(cells)?);
     let start = Instant::now();
     let built = Accel::build(mesh, StructureKind::Bvh8);
     let build = milliseconds(start);
-    std::fs::create_dir_all("out")?;
     built.save(path)?;
 
     let start = Instant::now();
@@ -64,7 +64,8 @@ fn round_trip(cells: u32, path: &str) -> anyhow::Result<RoundTrip> {
 }
 
 fn main() -> anyhow::Result<()> {
-    let path = "out/hills.ombra";
+    let path = Path::new("out/hills.ombra");
+    std::fs::create_dir_all("out")?;
     let RoundTrip {
         built,
         loaded,
@@ -72,7 +73,10 @@ fn main() -> anyhow::Result<()> {
         load,
     } = round_trip(700, path)?;
     let bytes = std::fs::metadata(path)?.len();
-    println!("built in {build:.0} ms, loaded in {load:.0} ms from {bytes} bytes in {path}");
+    println!(
+        "built in {build:.0} ms, loaded in {load:.0} ms from {bytes} bytes in {}",
+        path.display()
+    );
     let same = if built == loaded { "the same" } else { "OTHER" };
     println!("{same} answers to {} rays", built.len());
     Ok(())
@@ -80,7 +84,8 @@ fn main() -> anyhow::Result<()> {
 
 #[test]
 fn what_is_loaded_gives_the_answers_of_what_was_saved() -> anyhow::Result<()> {
-    let RoundTrip { built, loaded, .. } = round_trip(40, "out/hills-test.ombra")?;
+    let folder = tempfile::tempdir()?;
+    let RoundTrip { built, loaded, .. } = round_trip(40, &folder.path().join("hills.ombra"))?;
     assert!(built.iter().flatten().count() > 300);
     assert_eq!(built, loaded);
     Ok(())

@@ -14,7 +14,7 @@ use ombra_formats::{
     read_model_bytes, read_texture_bytes,
 };
 use ombra_geometry::triangle::TriangleTest;
-use ombra_geometry::{Aabb, Point3, Ray, TriangleMesh};
+use ombra_geometry::{Aabb, Point3, Ray, TriangleMesh, Vector3};
 use ombra_scene::Scene;
 
 /// A target: its name, which is that of its corpus, and what it does.
@@ -249,6 +249,12 @@ pub fn structure(data: &[u8]) {
         for away in [0.0, 1.0, 1e4] {
             rays.push(Ray::new(centre - toward * (away * extent), toward));
         }
+    }
+    // Enough that go together for a packet.
+    for k in 0..64 {
+        let aside = Vector3::new((k % 8) as f32, (k / 8) as f32, 8.0) * (extent / 16.0);
+        let from = centre + Vector3::new(1.0, 0.8, 0.9) * extent;
+        rays.push(Ray::new(from, centre + aside - from));
     }
     for level in Level::available() {
         let tree = tree.clone().at_level(level);
