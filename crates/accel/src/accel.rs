@@ -279,8 +279,10 @@ impl<P: Primitives> Traversable for Accel<P> {
     fn intersect_many(&self, rays: &[Ray<f32>], hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "one place for a hit for each ray");
         let mut slow = Vec::new();
-        if let Some(tree) = self.structure.wide()
-            && tree.closest_many(rays, hits, &mut |index| slow.push(index))
+        let mut later = |index| slow.push(index);
+        let tree = self.structure.wide();
+        if tree.is_some_and(|tree| tree.closest_many(rays, hits, &mut later))
+            || (self.primitives).closest_many(rays, hits, &self.reach, &mut later)
         {
             for index in slow {
                 hits[index] = self.intersect(&rays[index]);
@@ -295,8 +297,10 @@ impl<P: Primitives> Traversable for Accel<P> {
     fn occluded_many(&self, rays: &[Ray<f32>], occluded: &mut [bool]) {
         assert_eq!(rays.len(), occluded.len(), "one answer for each ray");
         let mut slow = Vec::new();
-        if let Some(tree) = self.structure.wide()
-            && tree.any_many(rays, occluded, &mut |index| slow.push(index))
+        let mut later = |index| slow.push(index);
+        let tree = self.structure.wide();
+        if tree.is_some_and(|tree| tree.any_many(rays, occluded, &mut later))
+            || (self.primitives).any_many(rays, occluded, &self.reach, &mut later)
         {
             for index in slow {
                 occluded[index] = self.occluded(&rays[index]);

@@ -171,6 +171,26 @@ impl Traversable for World {
             .search(ray, rule, statistics, &mut of_what_is_there)
     }
 
+    fn intersect_many(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if !self.has_gaps {
+            return self.accel.intersect_many(rays, hits);
+        }
+        assert_eq!(rays.len(), hits.len(), "one place for a hit for each ray");
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.intersect(ray);
+        }
+    }
+
+    fn occluded_many(&self, rays: &[Ray], occluded: &mut [bool]) {
+        if !self.has_gaps {
+            return self.accel.occluded_many(rays, occluded);
+        }
+        assert_eq!(rays.len(), occluded.len(), "one answer for each ray");
+        for (ray, occluded) in rays.iter().zip(occluded) {
+            *occluded = self.occluded(ray);
+        }
+    }
+
     fn bounds(&self) -> Aabb {
         self.accel.bounds()
     }

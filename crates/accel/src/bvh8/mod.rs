@@ -48,6 +48,7 @@ use store::Store;
 use wide::WideTree;
 
 pub use kernel::Level;
+pub(crate) use kernel::{not_above, rounded};
 pub(crate) use node::{Node, WIDTH};
 
 /// How much care a builder takes.
@@ -187,6 +188,11 @@ impl Wide {
     /// Whether a search may come upon the same triangle more than once.
     pub(crate) const fn repeats(&self) -> bool {
         self.repeats
+    }
+
+    /// Whether leaves hold triangles, so that kernels trace all but a few rays.
+    pub(crate) const fn is_of_triangles(&self) -> bool {
+        matches!(self.leaves, Leaves::Quads(_))
     }
 
     /// The parts that the kernels need, if leaves hold triangles.

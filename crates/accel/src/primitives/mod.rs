@@ -8,10 +8,10 @@ use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 use ombra_geometry::{
-    Aabb, Crossing, EdgeRule, GeometryId, Hit, InstanceId, PrimitiveId, TriangleMesh,
+    Aabb, Crossing, EdgeRule, GeometryId, Hit, InstanceId, PrimitiveId, Ray, TriangleMesh,
 };
 
-use crate::{Counter, TraversalRay};
+use crate::{Counter, Reach, TraversalRay};
 
 pub use geometry::Geometry;
 pub use mesh::Mesh;
@@ -57,6 +57,32 @@ pub trait Primitives: Send + Sync {
     /// The triangles, if that is what these are and they are tested by the watertight test.
     fn watertight(&self) -> Option<&TriangleMesh> {
         None
+    }
+
+    /// The closest hits of many rays, if there is a quicker way than one ray after another: by whoever
+    /// has structures of its own below. No if there is none, and then nothing is done. `slow` is told
+    /// which rays have to be asked for one by one all the same.
+    fn closest_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut [Option<Hit>],
+        reach: &Reach,
+        slow: &mut dyn FnMut(usize),
+    ) -> bool {
+        let _ = (rays, hits, reach, slow);
+        false
+    }
+
+    /// The same of whether there are hits.
+    fn any_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut [bool],
+        reach: &Reach,
+        slow: &mut dyn FnMut(usize),
+    ) -> bool {
+        let _ = (rays, hits, reach, slow);
+        false
     }
 
     /// The same list where its primitives need nothing worked out for a ray, so that a level above

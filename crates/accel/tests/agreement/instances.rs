@@ -111,6 +111,36 @@ fn every_structure_over_every_structure_agrees_with_brute_force() {
     }
 }
 
+/// With few placements many rays at once are asked of one after another.
+#[test]
+fn a_few_placements_agree_with_brute_force() {
+    let stays = |geometry| Instance::new(GeometryId(geometry), Transform::identity());
+    let unseen = Instance {
+        mask: 0,
+        ..stays(1)
+    };
+    let mut few = vec![
+        vec![stays(0)],
+        vec![stays(0), stays(3), stays(0), stays(2), stays(4), unseen],
+    ];
+    few.extend(placements(0.0).chunks(5).map(<[_]>::to_vec));
+    few.extend(placements(1e6).chunks(7).map(|some| {
+        let mut some = some.to_vec();
+        some.insert(1, stays(2));
+        some
+    }));
+    for placements in few {
+        let build = |kind| two_levels(kind, kind, placements.clone());
+        let judge = build(StructureKind::BruteForce);
+        let x = judge.bounds().centre().x;
+        let mut rays = rays::around(&corners(&judge), 0.1);
+        rays.extend(rays::of_mesh(&meshes::icosphere(2), 0.15));
+        rays.extend(moved_rays(&rays::of_mesh(&meshes::icosphere(2), 0.15), x));
+        let name = format!("{} placements about {x}", placements.len());
+        assert_same(&name, &build, &rays);
+    }
+}
+
 #[test]
 fn every_structure_agrees_with_brute_force_under_extreme_placements() {
     let sheared = [

@@ -116,8 +116,9 @@ fn every_target_has_a_program_and_a_corpus_of_small_files_and_no_corpus_is_witho
         }
     }
     for folder in std::fs::read_dir(corpora()).unwrap() {
-        let name = folder.unwrap().file_name();
-        let known = TARGETS.iter().any(|(target, _)| *target == name);
-        assert!(known, "{} has no target", name.display());
+        // Readers of other crates are no targets of this list, but have their programs all the same.
+        let name = folder.unwrap().file_name().into_string().unwrap();
+        let program = corpora().join(format!("../fuzz_targets/{name}.rs"));
+        assert!(program.exists(), "{name} has no program");
     }
 }

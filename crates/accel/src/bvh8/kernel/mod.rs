@@ -18,4 +18,5 @@ pub use level::Level;
 pub(super) use dispatch::{any, any_many, closest, closest_many, ready, search, search_counted};
 pub(super) use lists::walk_lists;
 pub(super) use ray::{Near, SingleRay};
+pub(crate) use ray::{not_above, rounded};
 pub(super) use walk::{Found, MAX_DEPTH, STACK, Tree, stack};

@@ -86,34 +86,47 @@ pub(crate) struct SingleRay {
     pub(crate) watertight: Watertight<f32>,
 }
 
+/// A ray in double precision that is to be traced in single; `None` if it is not. Its range is rounded
+/// inward, so that it holds the same singles.
+#[inline]
+pub(crate) fn rounded(ray: &TraversalRay) -> Option<Ray> {
+    if !ray.single() {
+        return None;
+    }
+    let Ray {
+        origin,
+        direction,
+        t_min,
+        t_max,
+    } = ray.ray;
+    let mut from = t_min as f32;
+    if f64::from(from) < t_min {
+        from = from.next_up();
+    }
+    Some(Ray {
+        origin: origin.cast(),
+        direction: direction.cast(),
+        t_min: from,
+        t_max: not_above(t_max),
+    })
+}
+
+/// The largest single that is not above a number.
+#[inline]
+pub(crate) fn not_above(x: f64) -> f32 {
+    let single = x as f32;
+    if f64::from(single) > x {
+        single.next_down()
+    } else {
+        single
+    }
+}
+
 impl SingleRay {
-    /// The same for a ray in double precision that is to be traced in single: its range is rounded
-    /// inward, so that it holds the same singles.
+    /// The same for a ray in double precision that is to be traced in single.
     #[inline]
     pub(crate) fn rounded(ray: &TraversalRay, near: &Near) -> Option<Self> {
-        if !ray.single() {
-            return None;
-        }
-        let Ray {
-            origin,
-            direction,
-            t_min,
-            t_max,
-        } = ray.ray;
-        let (mut from, mut to) = (t_min as f32, t_max as f32);
-        if f64::from(from) < t_min {
-            from = from.next_up();
-        }
-        if f64::from(to) > t_max {
-            to = to.next_down();
-        }
-        let ray = Ray {
-            origin: origin.cast(),
-            direction: direction.cast(),
-            t_min: from,
-            t_max: to,
-        };
-        Self::new(&ray, near)
+        Self::new(&rounded(ray)?, near)
     }
 
     /// `None` if the ray is not valid, or is to be traced in double precision.

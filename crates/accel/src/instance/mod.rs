@@ -1,9 +1,11 @@
 //! Two levels: a geometry is built once and placed many times.
 
+mod in_turn;
+
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use ombra_geometry::{Aabb, EdgeRule, GeometryId, InstanceId, Object, Ray, Transform, World};
+use ombra_geometry::{Aabb, EdgeRule, GeometryId, Hit, InstanceId, Object, Ray, Transform, World};
 
 use crate::distance::Placed;
 use crate::{
@@ -229,6 +231,26 @@ impl<P: Primitives> Primitives for Instances<P> {
         report: &mut F,
     ) -> ControlFlow<()> {
         self.crossings_seen(u32::MAX, *rule, (ray, t_max), primitive, counter, report)
+    }
+
+    fn closest_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut [Option<Hit>],
+        reach: &Reach,
+        slow: &mut dyn FnMut(usize),
+    ) -> bool {
+        self.closest_in_turn(rays, hits, reach, slow)
+    }
+
+    fn any_many(
+        &self,
+        rays: &[Ray],
+        hits: &mut [bool],
+        reach: &Reach,
+        slow: &mut dyn FnMut(usize),
+    ) -> bool {
+        self.any_in_turn(rays, hits, reach, slow)
     }
 
     fn bytes(&self) -> usize {
