@@ -11,6 +11,7 @@
 
 pub mod against;
 pub mod contest;
+pub mod load;
 pub mod machine;
 pub mod meshes;
 pub mod place;
@@ -36,7 +37,7 @@ pub struct Bench {
 }
 
 /// Every bench.
-pub const BENCHES: &[Bench] = &[whitted::BENCH];
+pub const BENCHES: &[Bench] = &[whitted::BENCH, load::BENCH];
 
 /// How much a bench does.
 #[derive(Clone, Debug)]
@@ -47,7 +48,8 @@ pub struct Settings {
     pub threads: Vec<usize>,
     /// How many pixels wide and high pictures are.
     pub pixels: u32,
-    /// How fine generated geometry is: hills have twice the square of this many triangles.
+    /// How fine generated geometry is: hills have twice the square of this many triangles, a city
+    /// has twice as many houses a side.
     pub detail: u32,
     /// The structure that rays are traced against.
     pub accel: StructureKind,

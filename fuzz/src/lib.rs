@@ -6,7 +6,7 @@
 
 use std::fmt::Display;
 
-use ombra_accel::{Geometry, Primitives as _};
+use ombra_accel::{Geometry, Level, Primitives as _, Traversable as _, TriangleTree};
 use ombra_formats::minray::{parse_contest, read_contest_picture_bytes};
 use ombra_formats::scene::parse_scene;
 use ombra_formats::{
@@ -14,7 +14,7 @@ use ombra_formats::{
     read_model_bytes, read_texture_bytes,
 };
 use ombra_geometry::triangle::TriangleTest;
-use ombra_geometry::{Aabb, TriangleMesh};
+use ombra_geometry::{Aabb, Point3, Ray, TriangleMesh, Vector3};
 use ombra_scene::Scene;
 
 /// A target: its name, which is that of its corpus, and what it does.
@@ -35,6 +35,7 @@ pub const TARGETS: &[Target] = &[
     ("png", png),
     ("scene", scene),
     ("stl", stl),
+    ("structure", structure),
     ("texture", texture),
 ];
 
@@ -218,6 +219,74 @@ pub fn netpbm(data: &[u8]) {
         assert_eq!(image.map_or(0, |image| image.non_finite()), 0);
     } else {
         image("a.pfm", data);
+    }
+}
+
+/// Loads a structure. The first byte says whether the checksums are made right first: then changes
+/// reach what is behind them. Rays go through whatever is loaded, near and far, at every level.
+pub fn structure(data: &[u8]) {
+    let Some((&kind, rest)) = data.split_first() else {
+        return;
+    };
+    let mut file = rest.to_vec();
+    if kind & 1 == 1 {
+        make_sums_right(&mut file);
+    }
+    let tree = match TriangleTree::read_bytes("a.ombra", &file) {
+        Ok(tree) => tree,
+        Err(error) => return check_line(&error),
+    };
+    let bounds = tree.bounds();
+    let (centre, extent) = if bounds.is_empty() {
+        (Point3::ORIGIN, 1.0)
+    } else {
+        (bounds.centre(), bounds.extent().max_norm())
+    };
+    let mut rays = Vec::new();
+    for octant in 0..8 {
+        let side = |bit: u32| if octant >> bit & 1 == 0 { 0.9 } else { -1.0 };
+        let toward = Point3::new(side(0), side(1), side(2)) - Point3::ORIGIN;
+        for away in [0.0, 1.0, 1e4] {
+            rays.push(Ray::new(centre - toward * (away * extent), toward));
+        }
+    }
+    // Enough that go together for a packet.
+    for k in 0..64 {
+        let aside = Vector3::new((k % 8) as f32, (k / 8) as f32, 8.0) * (extent / 16.0);
+        let from = centre + Vector3::new(1.0, 0.8, 0.9) * extent;
+        rays.push(Ray::new(from, centre + aside - from));
+    }
+    for level in Level::available() {
+        let tree = tree.clone().at_level(level);
+        let mut hits = vec![None; rays.len()];
+        tree.intersect_many(&rays, &mut hits);
+        for (ray, many) in rays.iter().zip(hits) {
+            let one = tree.intersect(ray);
+            assert_eq!(one, many, "{ray:?}");
+            let mut all = Vec::new();
+            tree.all_hits(ray, &mut all);
+            for hit in all.iter().chain(&one) {
+                assert!((hit.primitive.0 as usize) < tree.triangles(), "{hit:?}");
+            }
+        }
+    }
+}
+
+/// Writes the checksums of what is there into the header of a structure.
+fn make_sums_right(file: &mut [u8]) {
+    let Some(&[a, b, c, d]) = file.get(16..20) else {
+        return;
+    };
+    let nodes = u32::from_le_bytes([a, b, c, d]) as usize;
+    let quads = nodes.saturating_mul(256).saturating_add(128);
+    if quads <= file.len() {
+        let sums = [&file[128..quads], &file[quads..]].map(crc32fast::hash);
+        file[36..40].copy_from_slice(&sums[0].to_le_bytes());
+        file[40..44].copy_from_slice(&sums[1].to_le_bytes());
+    }
+    if file.len() >= 128 {
+        let sum = crc32fast::hash(&file[..124]);
+        file[124..128].copy_from_slice(&sum.to_le_bytes());
     }
 }
 

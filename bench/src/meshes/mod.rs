@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{bail, ensure};
-use ombra_geometry::{Point3, TriangleMesh, Vector3};
+use ombra_geometry::{MeshError, Point3, TriangleMesh, Vector3};
 
 pub use view::{Light, View};
 
@@ -82,6 +82,14 @@ pub fn load(name: &str, size: Size) -> anyhow::Result<Found> {
         mesh: Arc::new(mesh),
         view: view(&bounds),
     }))
+}
+
+/// The city with so many houses a side; that of the tables has 400.
+///
+/// # Errors
+/// When a mesh cannot have so many triangles.
+pub fn city(houses: u32) -> Result<TriangleMesh, MeshError> {
+    city::mesh(houses)
 }
 
 fn of_file(name: &str) -> anyhow::Result<TriangleMesh> {

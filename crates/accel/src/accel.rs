@@ -1,10 +1,12 @@
 //! A structure over primitives: what answers queries.
 
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use ombra_geometry::{Aabb, EdgeRule, Hit, Ray};
 use rayon::prelude::*;
 
+use crate::bvh8::file::StructureFileError;
 use crate::bvh8::{Bvh8, Care, Items, Level, Shown, Wide};
 use crate::distance::Boxes;
 use crate::search::Search;
@@ -96,6 +98,41 @@ impl<P: Primitives> Accel<P> {
         });
         let structure = kind.build(&bounded, &Reach::of(&bounds));
         (structure, unbounded, bounds)
+    }
+
+    /// Of a structure that was built before. No primitive is endless.
+    pub(crate) const fn of_parts(
+        primitives: P,
+        structure: AnyStructure,
+        reach: Reach,
+        bounds: Aabb,
+    ) -> Self {
+        Self {
+            primitives,
+            structure,
+            unbounded: Vec::new(),
+            reach,
+            bounds,
+        }
+    }
+
+    /// Saves the structure with all that it traces, for [`TriangleTree`](crate::TriangleTree) to
+    /// load: a wide tree (`bvh8`, `bvh8-fast`, `bvh8-high`) over triangles that are tested by the
+    /// watertight test. The file is written beside the path and renamed when it is whole.
+    ///
+    /// # Errors
+    /// When it is another structure, or over something else, or the file cannot be written; what was
+    /// at the path before is still there then.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StructureFileError> {
+        let path = path.as_ref();
+        // What has no end would be left out.
+        let tree = self.structure.wide().filter(|_| self.unbounded.is_empty());
+        let triangles = self.primitives.len() as u32;
+        let saved = tree.and_then(|tree| tree.save(path, self.bounds, triangles));
+        saved.unwrap_or_else(|| {
+            let (path, kind) = (path.to_owned(), self.structure.kind());
+            Err(StructureFileError::NotSaved { path, kind })
+        })
     }
 
     /// The primitives.

@@ -6,6 +6,9 @@
 //! 2. if the primitives are triangles they are copied into the leaves (`quad`); leaves of other
 //!    primitives become nodes with one in each leaf (`spread`).
 //!
+//! Such a tree over triangles is a file too, all in itself (`file`, `places`), and traced where the
+//! file lies in memory (`store`).
+//!
 //! A tree over triangles takes about 50 bytes of each, over boxes of twelve triangles 64. While it is
 //! built it never takes more than twice as much as when it is finished, the mesh aside.
 //!
@@ -14,13 +17,16 @@
 //! are to be traced in double precision walk down it plainly (`traverse`).
 
 mod build;
+pub(crate) mod file;
 mod kernel;
 mod near;
 mod node;
+pub(crate) mod places;
 mod quad;
 mod refit;
 mod shown;
 mod spread;
+mod store;
 #[cfg(test)]
 mod tests;
 mod traverse;
@@ -38,6 +44,7 @@ pub(crate) use build::items::Items;
 use kernel::{Found, Near, SingleRay, Tree};
 use quad::Quad;
 pub(crate) use shown::Shown;
+use store::Store;
 use wide::WideTree;
 
 pub use kernel::Level;
@@ -94,7 +101,7 @@ pub struct Bvh8<C = Balanced> {
 /// The tree itself, however it was built.
 #[derive(Clone, Debug)]
 pub(crate) struct Wide {
-    tree: WideTree,
+    tree: WideTree<Store<Node>>,
     leaves: Leaves,
     near: Near,
     /// Whether some triangles are in several leaves.
@@ -107,8 +114,10 @@ pub(crate) struct Wide {
 enum Leaves {
     /// Primitives by number.
     Lists(Vec<u32>),
-    /// Triangles.
-    Quads(Vec<Quad>),
+    /// Triangles, shown to a plain walk by their numbers.
+    Quads(Store<Quad>),
+    /// Triangles, shown to a plain walk by their places.
+    Places(Store<Quad>),
 }
 
 impl<C: Care> Bvh8<C> {
@@ -132,16 +141,10 @@ impl<C: Care> Bvh8<C> {
                 spread::spread(&mut tree, &|place| bounds_of(list[place]));
                 Leaves::Lists(list)
             }
-            Some(mesh) => Leaves::Quads(build::pack::pack(&mut tree, &list, mesh)),
+            Some(mesh) => Leaves::Quads(build::pack::pack(&mut tree, &list, mesh).into()),
         };
         Self {
-            tree: Wide {
-                tree,
-                leaves,
-                near: Near::new(reach),
-                repeats,
-                level: Level::detect(),
-            },
+            tree: Wide::new(tree.stored(), leaves, reach, repeats),
             care: PhantomData,
         }
     }
@@ -164,13 +167,24 @@ impl<C: Care> Structure for Bvh8<C> {
     fn bytes(&self) -> usize {
         let leaves = match &self.tree.leaves {
             Leaves::Lists(list) => size_of_val(list.as_slice()),
-            Leaves::Quads(quads) => size_of_val(quads.as_slice()),
+            Leaves::Quads(quads) | Leaves::Places(quads) => size_of_val(&**quads),
         };
-        size_of_val(self.tree.tree.nodes.as_slice()) + leaves
+        size_of_val(&*self.tree.tree.nodes) + leaves
     }
 }
 
 impl Wide {
+    /// With the best level of this machine.
+    fn new(tree: WideTree<Store<Node>>, leaves: Leaves, reach: &Reach, repeats: bool) -> Self {
+        Self {
+            tree,
+            leaves,
+            near: Near::new(reach),
+            repeats,
+            level: Level::detect(),
+        }
+    }
+
     /// Whether a search may come upon the same triangle more than once.
     pub(crate) const fn repeats(&self) -> bool {
         self.repeats
@@ -186,7 +200,7 @@ impl Wide {
     fn triangles(&self) -> Option<Tree<'_>> {
         match &self.leaves {
             Leaves::Lists(_) => None,
-            Leaves::Quads(quads) => Some(Tree {
+            Leaves::Quads(quads) | Leaves::Places(quads) => Some(Tree {
                 root: self.tree.root,
                 nodes: &self.tree.nodes,
                 quads,

@@ -1,5 +1,6 @@
 //! The nodes, to the byte.
 
+use bytemuck::{Pod, Zeroable};
 use ombra_geometry::{Aabb, Point3};
 
 /// How many children a node has room for.
@@ -16,7 +17,7 @@ pub(crate) const WIDTH: usize = 8;
 /// | 224..256 | `order`  | by octant of the ray's direction: eight times three bits, the number of a child each; the last one is the nearest |
 ///
 /// A place without a child has a box that no ray meets: from ∞ to −∞.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
     pub(crate) lower: [[f32; WIDTH]; 3],
@@ -35,7 +36,7 @@ const _: () = assert!(size_of::<Node>() == 256);
 ///
 /// The numbers of nodes and quads are those of 32 bytes before them, so that kernels find the
 /// address of either in the same way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(transparent)]
 pub(crate) struct Child(pub(crate) u32);
 

@@ -1,9 +1,13 @@
 //! The triangles of leaves, side by side as the kernel wants them.
 
 use arrayvec::ArrayVec;
+use bytemuck::{Pod, Zeroable};
 use ombra_geometry::{Point3, TriangleMesh};
 
 use super::node::MAX_LEAF;
+
+/// Ten components of four triangles.
+pub(crate) const NUMBERS: usize = 4 * Quad::COMPONENTS;
 
 /// Four triangles, component by component: `numbers[4 c + k]` is component `c` of triangle `k`.
 /// Components 0 to 8 are the three corners' x, y and z, component 9 is the number of the triangle
@@ -11,10 +15,10 @@ use super::node::MAX_LEAF;
 /// component, `numbers[8 c + k]`.
 ///
 /// A place without a triangle has NaN corners: no test says that a ray crosses it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(crate) struct Quad {
-    pub(crate) numbers: [f32; Self::NUMBERS],
+    pub(crate) numbers: [f32; NUMBERS],
 }
 
 const _: () = assert!(size_of::<Quad>() == 160);
@@ -22,14 +26,13 @@ const _: () = assert!(size_of::<Quad>() == 160);
 impl Quad {
     /// Components of a triangle.
     pub(crate) const COMPONENTS: usize = 10;
-    const NUMBERS: usize = 4 * Self::COMPONENTS;
 
     /// The numbers of a leaf's triangles.
     pub(crate) fn triangles(quads: &[Self]) -> ArrayVec<u32, MAX_LEAF> {
         let places = 4 * quads.len();
         let number = |k: usize| {
             let at = (Self::COMPONENTS - 1) * places + k;
-            quads[at / Self::NUMBERS].numbers[at % Self::NUMBERS].to_bits()
+            quads[at / NUMBERS].numbers[at % NUMBERS].to_bits()
         };
         (0..places).map(number).filter(|&n| n != u32::MAX).collect()
     }
@@ -48,12 +51,12 @@ impl Quad {
     /// Fills a leaf with so many places.
     #[inline(always)]
     fn fill<const PLACES: usize>(
-        quads: &mut [&mut [f32; Self::NUMBERS]],
+        quads: &mut [&mut [f32; NUMBERS]],
         mesh: &TriangleMesh,
         triangles: &[u32],
     ) {
         // How many components one quad holds.
-        let components = Self::NUMBERS / PLACES;
+        let components = NUMBERS / PLACES;
         for k in 0..PLACES {
             let mut put = |component: usize, number: f32| {
                 quads[component / components][component % components * PLACES + k] = number;

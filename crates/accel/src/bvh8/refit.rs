@@ -17,13 +17,13 @@ impl Wide {
         let Leaves::Quads(quads) = &mut self.leaves else {
             return false;
         };
-        let tree = &mut self.tree;
-        if tree.root.is_leaf() {
-            lay(tree.root, quads, mesh);
+        let (root, nodes, quads) = (self.tree.root, self.tree.nodes.to_mut(), quads.to_mut());
+        if root.is_leaf() {
+            lay(root, quads, mesh);
         }
         // What is below a node comes after it.
-        for index in (0..tree.nodes.len()).rev() {
-            let mut node = tree.nodes[index];
+        for index in (0..nodes.len()).rev() {
+            let mut node = nodes[index];
             for k in 0..node.child.len() {
                 if node.bounds(k).is_empty() {
                     continue;
@@ -32,12 +32,12 @@ impl Wide {
                 let bounds = if child.is_leaf() {
                     lay(child, quads, mesh)
                 } else {
-                    around(&tree.nodes[child.index()])
+                    around(&nodes[child.index()])
                 };
                 node.set(k, &bounds, child);
             }
             node.sort();
-            tree.nodes[index] = node;
+            nodes[index] = node;
         }
         self.near = Near::new(reach);
         true

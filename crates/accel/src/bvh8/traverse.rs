@@ -7,6 +7,7 @@ use arrayvec::ArrayVec;
 
 use super::kernel::{self, STACK};
 use super::node::{Child, WIDTH};
+use super::places::places;
 use super::quad::Quad;
 use super::{Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
@@ -59,14 +60,15 @@ impl Wide {
     fn leaf<V: Visitor>(&self, leaf: Child, visitor: &mut V) -> ControlFlow<()> {
         match &self.leaves {
             Leaves::Lists(list) => visitor.leaf(&list[leaf.range()], Span::ALL),
-            Leaves::Quads(_) => visitor.leaf(&self.list(leaf), Span::ALL),
+            Leaves::Quads(_) | Leaves::Places(_) => visitor.leaf(&self.list(leaf), Span::ALL),
         }
     }
 
-    /// The numbers of the primitives in a leaf.
+    /// What is in a leaf, as a visitor knows it: the numbers of primitives, or places.
     pub(super) fn list(&self, leaf: Child) -> ArrayVec<u32, WIDTH> {
         match &self.leaves {
             Leaves::Lists(list) => list[leaf.range()].iter().copied().collect(),
+            Leaves::Places(_) => places(leaf),
             Leaves::Quads(quads) => {
                 Quad::triangles(&quads[leaf.quad()..leaf.quad() + leaf.places() / 4])
             }

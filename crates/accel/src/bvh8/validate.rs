@@ -71,7 +71,7 @@ impl Walk<'_> {
     fn leaf(&mut self, leaf: Child, bounds: &Aabb) {
         let list: Vec<u32> = match &self.tree.leaves {
             Leaves::Lists(list) => list[leaf.range()].to_vec(),
-            Leaves::Quads(quads) => {
+            Leaves::Quads(quads) | Leaves::Places(quads) => {
                 let quads = &quads[leaf.quad()..leaf.quad() + leaf.places() / 4];
                 Quad::triangles(quads).to_vec()
             }

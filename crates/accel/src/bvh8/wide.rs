@@ -1,12 +1,13 @@
 //! The tree that builders make: nodes, and leaves that name lists of primitives.
 
 use super::node::{Child, Node};
+use super::store::Store;
 
 /// A wide tree.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct WideTree {
+pub(crate) struct WideTree<N = Vec<Node>> {
     pub(crate) root: Child,
-    pub(crate) nodes: Vec<Node>,
+    pub(crate) nodes: N,
     /// How many levels of nodes there are.
     pub(crate) depth: usize,
 }
@@ -20,6 +21,15 @@ impl WideTree {
             root: Child::node(0),
             nodes: vec![node],
             depth: 1,
+        }
+    }
+
+    /// As it is traced.
+    pub(crate) fn stored(self) -> WideTree<Store<Node>> {
+        WideTree {
+            root: self.root,
+            nodes: self.nodes.into(),
+            depth: self.depth,
         }
     }
 }

@@ -48,7 +48,8 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [1, 0])]
     pub(crate) threads: Vec<usize>,
 
-    /// How fine generated hills are: twice the square of this many triangles
+    /// How fine what is generated is: hills of twice the square of this many triangles, a city with
+    /// twice as many houses a side
     #[arg(
         long,
         value_name = "N",
