@@ -43,6 +43,7 @@ use crate::{AnyHit, Bounded, Candidate, Counter, Reach, Structure, TraversalRay,
 pub(crate) use build::items::Items;
 use kernel::{Found, Near, SingleRay, Tree};
 use quad::Quad;
+pub(crate) use refit::Moved;
 pub(crate) use shown::Shown;
 use store::Store;
 use wide::WideTree;

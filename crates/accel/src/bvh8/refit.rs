@@ -44,6 +44,80 @@ impl Wide {
     }
 }
 
+/// A triangle that moved, and the box that it had.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moved {
+    pub(crate) triangle: u32,
+    pub(crate) was: Aabb,
+}
+
+impl Wide {
+    /// The same where only some triangles moved, in the order of their numbers: what is not on the way
+    /// to them is not looked at.
+    pub(crate) fn refit_some(
+        &mut self,
+        mesh: &TriangleMesh,
+        moved: &[Moved],
+        reach: &Reach,
+    ) -> bool {
+        let Leaves::Quads(quads) = &mut self.leaves else {
+            return false;
+        };
+        let (root, nodes, quads) = (self.tree.root, self.tree.nodes.to_mut(), quads.to_mut());
+        renew(root, nodes, quads, mesh, moved);
+        self.near = Near::new(reach);
+        true
+    }
+}
+
+/// Renews what lies below on the way to triangles that moved, and says what box there is now; `None` if
+/// nothing changed. As deep as the tree.
+fn renew(
+    child: Child,
+    nodes: &mut [Node],
+    quads: &mut [Quad],
+    mesh: &TriangleMesh,
+    moved: &[Moved],
+) -> Option<Aabb> {
+    if child.is_leaf() {
+        let triangles = Quad::triangles(&quads[child.quad()..child.quad() + child.places() / 4]);
+        let is_moved = |triangle: &u32| {
+            let found = moved.binary_search_by_key(triangle, |moved| moved.triangle);
+            found.is_ok()
+        };
+        return triangles
+            .iter()
+            .any(is_moved)
+            .then(|| lay(child, quads, mesh));
+    }
+    let mut node = nodes[child.index()];
+    let mut changed = false;
+    for k in 0..node.child.len() {
+        let bounds = node.bounds(k);
+        if bounds.is_empty() {
+            continue;
+        }
+        // A part of a triangle lies in a box that has a point in common with that of the whole.
+        let here: Vec<Moved> = (moved.iter())
+            .filter(|moved| !moved.was.intersection(bounds).is_empty())
+            .copied()
+            .collect();
+        if here.is_empty() {
+            continue;
+        }
+        let below = node.child[k];
+        if let Some(bounds) = renew(below, nodes, quads, mesh, &here) {
+            node.set(k, &bounds, below);
+            changed = true;
+        }
+    }
+    changed.then(|| {
+        node.sort();
+        nodes[child.index()] = node;
+        around(&node)
+    })
+}
+
 /// The box around all children.
 fn around(node: &Node) -> Aabb {
     let children = node.children();

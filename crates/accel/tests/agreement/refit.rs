@@ -1,6 +1,6 @@
 //! Structures over meshes that move.
 
-use ombra_accel::{Accel, Mesh, StructureKind};
+use ombra_accel::{Accel, Mesh, StructureKind, Traversable as _};
 use ombra_geometry::{Point3, TriangleMesh, Vector3};
 
 use crate::answers::Answers;
@@ -37,6 +37,38 @@ fn a_refitted_structure_answers_as_brute_force_does() {
                 for ray in rays::of_mesh(&moved, 0.1) {
                     let (found, expected) = (Answers::of(&accel, &ray), Answers::of(&judge, &ray));
                     assert_eq!(found, expected, "{name}, {kind}, {by}: {ray:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_few_triangles_that_moved_are_found_where_they_are_now() {
+    for (name, mesh) in [
+        ("icosphere", meshes::icosphere(4)),
+        ("soup", meshes::random_soup(4000, 1.0, 0.3)),
+        ("slivers", meshes::slivers(900)),
+    ] {
+        for kind in ["bvh8", "bvh8-fast", "bvh8-high"].map(|name| name.parse().unwrap()) {
+            let mut accel = Accel::build(Mesh::new(mesh.clone()), kind);
+            let mut positions = mesh.positions().to_vec();
+            for round in 0..6 {
+                // Inward, outward beyond all others, and back.
+                let by = [0.9, 1.5, 0.5, -2.0, 3.0, 1.0][round];
+                for k in 0..round.min(4) {
+                    let vertex = (k * 577 + round * 31) % positions.len();
+                    let [x, y, z] = mesh.positions()[vertex].to_array();
+                    positions[vertex] = Point3::new(by * x, y + by - 1.0, by * z);
+                }
+                let moved =
+                    TriangleMesh::new(positions.clone(), mesh.triangles().to_vec()).unwrap();
+                assert!(accel.refit(Mesh::new(moved.clone())), "{name}, {kind}");
+                let judge = Accel::build(Mesh::new(moved.clone()), StructureKind::BruteForce);
+                assert_eq!(accel.bounds(), judge.bounds());
+                for ray in rays::of_mesh(&moved, 0.2) {
+                    let (found, expected) = (Answers::of(&accel, &ray), Answers::of(&judge, &ray));
+                    assert_eq!(found, expected, "{name}, {kind}, {round}: {ray:?}");
                 }
             }
         }
