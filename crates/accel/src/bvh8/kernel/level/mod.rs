@@ -194,7 +194,7 @@ pub(crate) trait WideLanes<L>: Copy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Level {
-    /// What stands in for [`Neon`](Self::Neon) where tests run: the same lanes, each instruction
+    /// What stands in for `Neon` where tests run: the same lanes, each instruction
     /// spelled out. Slower than [`Scalar`](Self::Scalar), and not in release builds.
     #[doc(hidden)]
     #[cfg(debug_assertions)]
