@@ -3,6 +3,7 @@
 use ombra_geometry::{EdgeRule, Hit, Ray};
 
 use super::super::node::{Child, Node};
+use super::box_ray::BoxRay;
 #[cfg(target_arch = "aarch64")]
 use super::level::Neon;
 #[cfg(debug_assertions)]
@@ -10,7 +11,7 @@ use super::level::NeonTwin;
 #[cfg(target_arch = "x86_64")]
 use super::level::{Avx2, Avx512};
 use super::level::{Lanes, Level, Portable};
-use super::lists::{BoxRay, entered, readied};
+use super::lists::{entered, readied};
 use super::many::many;
 use super::ray::{Near, SingleRay};
 use super::walk::{Any, Closest, Found, Said, Tree, walk};

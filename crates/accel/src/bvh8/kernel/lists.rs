@@ -16,62 +16,12 @@ use std::ops::ControlFlow;
 
 use super::super::Wide;
 use super::super::node::{Child, Node};
+use super::box_ray::BoxRay;
 use super::dispatch::enter;
 use super::level::Lanes;
-use super::ray::{LEAST, Near, PAD, PAD_AT, each, largest};
+use super::ray::Near;
 use super::walk::{STACK, Slabs};
 use crate::{Span, TraversalRay, Visitor};
-
-/// A ray made ready for boxes alone. Its fields mean what those of
-/// [`SingleRay`](super::SingleRay) do.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct BoxRay {
-    inverse: [f32; 4],
-    near: [f32; 4],
-    far: [f32; 4],
-    enter: [u32; 3],
-    leave: [u32; 3],
-    octant: u32,
-    t_min: f32,
-}
-
-impl BoxRay {
-    /// `None` if boxes are to be tested in double precision.
-    #[inline(always)]
-    fn new(ray: &TraversalRay, near: &Near) -> Option<Self> {
-        let [ox, oy, oz] = ray.ray.origin.cast::<f32>().to_array();
-        let [dx, dy, dz] = ray.ray.direction.cast::<f32>().to_array();
-        let (origin, direction) = ([ox, oy, oz, 0.0], [dx, dy, dz, 1.0]);
-        let away = largest(each(|k| (origin[k] - near.centre[k]).abs()));
-        let size = each(|k| direction[k].abs());
-        let unit = largest(size);
-        // The ray is valid. What has become infinite is not near, or too large.
-        let plain = (away <= near.limit) & (1e-10..=1e10).contains(&unit);
-        if !plain {
-            return None;
-        }
-        let at = largest(each(|k| origin[k].abs()));
-        let pad = PAD * (away + near.half) + PAD_AT * at + f32::MIN_POSITIVE;
-        let least = LEAST * unit;
-        let larger = each(|k| if size[k] > least { size[k] } else { least });
-        let inverse = each(|k| 1.0 / larger[k].copysign(direction[k]));
-        let pad = each(|k| pad.copysign(direction[k]));
-        let octant = direction.map(|d| d.to_bits() >> 31);
-        Some(Self {
-            inverse,
-            near: each(|k| -(origin[k] + pad[k]) * inverse[k]),
-            far: each(|k| -(origin[k] - pad[k]) * inverse[k]),
-            enter: [24 * octant[0], 8 + 24 * octant[1], 16 + 24 * octant[2]],
-            leave: [
-                24 - 24 * octant[0],
-                32 - 24 * octant[1],
-                40 - 24 * octant[2],
-            ],
-            octant: octant[0] | octant[1] << 1 | octant[2] << 2,
-            t_min: at_most(ray.ray.t_min),
-        })
-    }
-}
 
 /// [`BoxRay::new`], for each level.
 ///
@@ -79,7 +29,10 @@ impl BoxRay {
 /// - The processor has the instructions of `L`.
 #[inline(always)]
 pub(super) unsafe fn readied<L: Lanes>(ray: &TraversalRay, near: &Near) -> Option<BoxRay> {
-    BoxRay::new(ray, near)
+    let TraversalRay { ray, .. } = ray;
+    let (origin, direction) = (ray.origin.cast::<f32>(), ray.direction.cast::<f32>());
+    let t_min = at_most(ray.t_min);
+    BoxRay::new(origin.to_array(), direction.to_array(), t_min, near)
 }
 
 /// A single that is not above a number, and next to it.
@@ -156,27 +109,11 @@ pub(super) unsafe fn entered<L: Lanes>(
     to: *mut Child,
     entries: *mut f32,
 ) -> usize {
-    let BoxRay {
-        inverse: [ix, iy, iz, _],
-        near: [nx, ny, nz, _],
-        far: [fx, fy, fz, _],
-        enter,
-        leave,
-        octant,
-        t_min,
-    } = *ray;
     // SAFETY: the caller's promise.
     unsafe {
-        let slabs = Slabs::<L> {
-            inverse: [L::splat(ix), L::splat(iy), L::splat(iz)],
-            near: [L::splat(nx), L::splat(ny), L::splat(nz)],
-            far: [L::splat(fx), L::splat(fy), L::splat(fz)],
-            t_min: L::splat(t_min),
-            enter: [enter[0] as usize, enter[1] as usize, enter[2] as usize],
-            leave: [leave[0] as usize, leave[1] as usize, leave[2] as usize],
-        };
+        let slabs = Slabs::<L>::new(ray);
         let (near, far) = slabs.entries(node, L::splat(t_max));
-        let order = node.order[(octant & 7) as usize];
+        let order = node.order[(ray.octant & 7) as usize];
         let pushed = near.push(far, order, node.child.as_ptr(), to, entries);
         pushed.count_ones() as usize
     }

@@ -4,6 +4,7 @@
     reason = "vector instructions, and reads without a check of what a tree is known to hold"
 )]
 
+mod box_ray;
 mod dispatch;
 mod level;
 mod lists;

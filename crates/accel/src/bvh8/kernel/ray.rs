@@ -20,6 +20,7 @@
 use ombra_geometry::Ray;
 use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
 
+use super::box_ray::BoxRay;
 use crate::{Reach, TraversalRay};
 
 /// The pad for each unit of the distance to the farthest corner.
@@ -66,18 +67,7 @@ impl Near {
 /// A ray made ready.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SingleRay {
-    /// Where the ray meets plane p of an axis: p · `inverse` + `near`, or + `far` for the side where
-    /// it leaves a box. The fourth numbers mean nothing; so below.
-    pub(crate) inverse: [f32; 4],
-    pub(crate) near: [f32; 4],
-    pub(crate) far: [f32; 4],
-    /// Where in a node the planes begin at which the ray enters boxes, by axis, in numbers; and those
-    /// at which it leaves them.
-    pub(crate) enter: [u32; 3],
-    pub(crate) leave: [u32; 3],
-    /// Bit k: the direction's component k is negative.
-    pub(crate) octant: u32,
-    pub(crate) t_min: f32,
+    pub(crate) boxes: BoxRay,
     pub(crate) t_max: f32,
     /// Which axes take the places of x, y and z where the ray is the z axis.
     pub(crate) axes: [u32; 3],
@@ -132,59 +122,22 @@ impl SingleRay {
     /// `None` if the ray is not valid, or is to be traced in double precision.
     #[inline(always)]
     pub(crate) fn new(ray: &Ray, near: &Near) -> Option<Self> {
-        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
-        // Four lanes each, so that one instruction sees to all.
-        let (origin, direction) = ([ox, oy, oz, 0.0], [dx, dy, dz, 1.0]);
-        let away = largest(each(|k| (origin[k] - near.centre[k]).abs()));
-        let size = each(|k| direction[k].abs());
-        let unit = largest(size);
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+        let ([ox, oy, oz], [dx, dy, dz]) = (origin, direction);
         // What has a NaN or an infinity makes the sum a NaN, or fails to be near.
-        let sum = (ox + oy + oz) * 0.0 + (size[0] + size[1] + size[2]);
-        let plain = (away <= near.limit)
-            & (sum <= 3e10)
-            & (1e-10..=1e10).contains(&unit)
-            & (ray.t_min <= ray.t_max);
-        if !plain {
+        let sum = (ox + oy + oz) * 0.0 + (dx.abs() + dy.abs() + dz.abs());
+        if !((sum <= 3e10) & (ray.t_min <= ray.t_max)) {
             return None;
         }
-        let at = largest(each(|k| origin[k].abs()));
-        let pad = PAD * (away + near.half) + PAD_AT * at + f32::MIN_POSITIVE;
-        let least = LEAST * unit;
-        let larger = each(|k| if size[k] > least { size[k] } else { least });
-        let inverse = each(|k| 1.0 / larger[k].copysign(direction[k]));
-        let pad = each(|k| pad.copysign(direction[k]));
-        let octant = direction.map(|d| d.to_bits() >> 31);
+        let boxes = BoxRay::new(origin, direction, ray.t_min, near)?;
         let watertight = Watertight::new(ray);
         let axes = watertight.axes().map(|axis| axis as u32);
         Some(Self {
-            inverse,
-            near: each(|k| -(origin[k] + pad[k]) * inverse[k]),
-            far: each(|k| -(origin[k] - pad[k]) * inverse[k]),
-            enter: [24 * octant[0], 8 + 24 * octant[1], 16 + 24 * octant[2]],
-            leave: [
-                24 - 24 * octant[0],
-                32 - 24 * octant[1],
-                40 - 24 * octant[2],
-            ],
-            octant: octant[0] | octant[1] << 1 | octant[2] << 2,
-            t_min: ray.t_min,
+            boxes,
             t_max: ray.t_max,
             axes,
-            origin: axes.map(|axis| origin[axis as usize & 3]),
+            origin: axes.map(|axis| [ox, oy, oz, 0.0][axis as usize & 3]),
             watertight,
         })
     }
-}
-
-/// Four numbers by their places.
-#[inline(always)]
-pub(super) fn each(of: impl Fn(usize) -> f32) -> [f32; 4] {
-    [of(0), of(1), of(2), of(3)]
-}
-
-/// The largest of the first three.
-#[inline(always)]
-pub(super) fn largest([x, y, z, _]: [f32; 4]) -> f32 {
-    let larger = |a: f32, b: f32| if a > b { a } else { b };
-    larger(larger(x, y), z)
 }

@@ -228,10 +228,10 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
         let to = children.add(waiting);
         let node = tree.node(*to);
         let ray = &(*under).ray;
-        let (near, far) = Slabs::<L>::new(ray).entries(node, L::splat(ray.t_max));
+        let (near, far) = Slabs::<L>::new(&ray.boxes).entries(node, L::splat(ray.t_max));
         let what: *const Child = (&raw const (*node).child).cast();
         let pushed = if W::ORDERED {
-            let order = (*node).order[(ray.octant & 7) as usize];
+            let order = (*node).order[(ray.boxes.octant & 7) as usize];
             near.push(far, order, what, to, (*under).entries.add(waiting))
         } else {
             near.push_unordered(far, what, to)
@@ -311,7 +311,10 @@ unsafe fn second_half<L: Lanes>(under: *mut Under) -> bool {
         let z = u.times(az).plus(v.times(bz)).plus(w.times(cz));
         let per_z = L::Wide::splat((*under).ray.watertight.shear().z.into());
         let t = z.times(per_z).rounded();
-        let (t_min, t_max) = (L::splat((*under).ray.t_min), L::splat((*under).ray.t_max));
+        let (t_min, t_max) = (
+            L::splat((*under).ray.boxes.t_min),
+            L::splat((*under).ray.t_max),
+        );
         let in_range = t_min.at_most(t) & t.at_most(t_max) & t.at_most(L::splat(f32::MAX));
         let hits = (*under).left & !outside & !flat & in_range;
         (*under).left = hits;

@@ -28,6 +28,7 @@ use ombra_geometry::{Crossing, EdgeRule, Vector3};
 
 use super::super::node::{Child, Node, WIDTH};
 use super::super::quad::Quad;
+use super::box_ray::BoxRay;
 use super::level::Lanes;
 use super::ray::SingleRay;
 use crate::{AnyHit, Candidate, Counter};
@@ -172,7 +173,7 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
     // SAFETY: `waiting` stays below the number of places, since a tree is at most `MAX_DEPTH` deep;
     // what is read was written; children name what is there (the caller's promise).
     unsafe {
-        let slabs = Slabs::<L>::new(ray);
+        let slabs = Slabs::<L>::new(&ray.boxes);
         let mut t_max = L::splat(ray.t_max);
         let mut waiting = 0;
         let mut child = tree.root;
@@ -198,7 +199,7 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
                 }
                 let to = children.add(waiting);
                 let nearest = if W::ORDERED {
-                    let order = (*node).order[(ray.octant & 7) as usize];
+                    let order = (*node).order[(ray.boxes.octant & 7) as usize];
                     let pushed = near.push(far, order, what, to, entries.add(waiting));
                     order >> (3 * (31 - pushed.leading_zeros())) & 7
                 } else {
@@ -246,20 +247,20 @@ unsafe fn splat<L: Lanes>(x: f32, y: f32, z: f32) -> [L; 3] {
 /// The test of eight boxes.
 #[derive(Clone, Copy)]
 pub(super) struct Slabs<L> {
-    pub(super) inverse: [L; 3],
-    pub(super) near: [L; 3],
-    pub(super) far: [L; 3],
-    pub(super) t_min: L,
-    pub(super) enter: [usize; 3],
-    pub(super) leave: [usize; 3],
+    inverse: [L; 3],
+    near: [L; 3],
+    far: [L; 3],
+    t_min: L,
+    enter: [usize; 3],
+    leave: [usize; 3],
 }
 
 impl<L: Lanes> Slabs<L> {
     /// # Safety
     /// - See [`walk`].
     #[inline(always)]
-    pub(super) unsafe fn new(ray: &SingleRay) -> Self {
-        let SingleRay {
+    pub(super) unsafe fn new(ray: &BoxRay) -> Self {
+        let BoxRay {
             inverse,
             near,
             far,
@@ -462,7 +463,7 @@ unsafe fn decided<W: Word>(
     };
     // Exact: the test rounded it to a single.
     let t = t as f32;
-    let in_range = (ray.t_min <= t) & (t <= ray.t_max) & (t < f32::INFINITY);
+    let in_range = (ray.boxes.t_min <= t) & (t <= ray.t_max) & (t < f32::INFINITY);
     // At the same t as the best hit the smaller number comes first.
     if !in_range || (t == best.t && best.triangle <= triangle) {
         return After::Nothing;
