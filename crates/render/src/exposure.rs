@@ -50,8 +50,7 @@ impl<'a> Exposure<'a> {
         pixel: &mut Pixel,
         mut measure: impl FnMut(&Ray, &Sample) -> Result<Rgb, Exception>,
     ) -> Result<(), Exception> {
-        let [x, y, _] = launch_index;
-        let place = [self.crop.x0 + x, self.crop.y0 + y];
+        let place = self.pixel(launch_index);
         let numbers = self.numbers(place);
         let mut exposed = *pixel;
         for index in self.samples.clone() {
@@ -107,8 +106,7 @@ impl<'a> Exposure<'a> {
             each,
         };
         for k in 0..batch.len() {
-            let [x, y, _] = batch.context(k).launch_index();
-            let place = [self.crop.x0 + x, self.crop.y0 + y];
+            let place = self.pixel(batch.context(k).launch_index());
             let numbers = self.numbers(place);
             for index in self.samples.clone() {
                 let sample = numbers.sample(index);
@@ -136,6 +134,12 @@ impl<'a> Exposure<'a> {
             has_lens: false,
             ..self
         }
+    }
+
+    /// The pixel of a launch index.
+    #[inline]
+    const fn pixel(&self, [x, y, _]: [u32; 3]) -> [u32; 2] {
+        [self.crop.x0 + x, self.crop.y0 + y]
     }
 
     /// The numbers of a sample of a pixel.

@@ -205,17 +205,7 @@ fn a_lens_is_noted_unless_nobody_wants_to_hear() {
 fn ctrl_c_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let long = ["compare", "whitted", "--size", "600x400", "--spp", "100000"];
-    let child = crate::ombra(folder.path(), &long)
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(3));
-    let sent = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(sent.success());
-    let output = child.wait_with_output().unwrap();
+    let (output, _) = crate::interrupted::interrupted(folder.path(), &long);
     let talk = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{talk}");
     assert!(talk.contains("nothing written"), "{talk}");

@@ -128,19 +128,7 @@ fn ctrl_c_keeps_what_is_measured_and_says_so() {
         "-o",
         "study.html",
     ];
-    let child = crate::ombra(folder.path(), &long)
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Long enough to have begun, on any machine; all rounds would take minutes.
-    std::thread::sleep(std::time::Duration::from_secs(3));
-    let sent = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(sent.success());
-    let output = child.wait_with_output().unwrap();
+    let (output, _) = crate::interrupted::interrupted(folder.path(), &long);
     let talk = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{talk}");
     assert!(talk.contains("kept what was measured"), "{talk}");
