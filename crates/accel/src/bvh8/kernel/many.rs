@@ -34,13 +34,13 @@ pub(crate) unsafe fn many<L: Lanes, W: Word + Default>(
 ) {
     let mut kinds = [0_u8; BLOCK];
     let (mut left, mut sorted) = ([0_u16; BLOCK], [0_u16; BLOCK]);
+    let numbers: [u16; BLOCK] = std::array::from_fn(|k| k as u16);
     for (number, block) in rays.chunks(BLOCK).enumerate() {
         let first = number * BLOCK;
         let mut answer = |k: usize, found| answer(first + k, found);
         for (ray, kind) in block.iter().zip(&mut kinds) {
             *kind = kind_of(ray);
         }
-        let numbers: [u16; BLOCK] = std::array::from_fn(|k| k as u16);
         let mut count = 0;
         for chosen in numbers[..block.len()].chunks(PACKET) {
             let kinds = &kinds[usize::from(chosen[0])..][..chosen.len()];
