@@ -38,6 +38,7 @@ impl<P: Primitives> Accel<P> {
             StructureKind::Bvh8 => Self::build_wide(&primitives, AnyStructure::Bvh8),
             StructureKind::Bvh8Fast => Self::build_wide(&primitives, AnyStructure::Bvh8Fast),
             StructureKind::Bvh8High => Self::build_wide(&primitives, AnyStructure::Bvh8High),
+            StructureKind::Bvh8Compact => Self::build_wide(&primitives, AnyStructure::Bvh8Compact),
             _ => Self::build_plain(&primitives, count, kind),
         };
         let reach = Reach::of(&bounds);

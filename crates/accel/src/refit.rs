@@ -13,7 +13,7 @@ impl Accel<Mesh> {
     /// Of the wide trees boxes alone are worked out again, which takes a fraction of a build; the more
     /// vertices have moved against each other, the more of what is then found a new build would
     /// spare. Where no more than one triangle in sixteen moved, nothing but what is on the way to them
-    /// is looked at. A structure is built anew if it is of another kind, if triangles differ, or if another
+    /// is looked at. A structure is built anew if it is of another kind or compact, if triangles differ, or if another
     /// one than before has a corner that is not finite.
     pub fn refit(&mut self, mesh: Mesh) -> bool {
         let kept = self.refit_in_place(&mesh);

@@ -101,10 +101,13 @@ fn trees_and_their_building_take_as_much_memory_as_they_say() {
     for (name, mesh) in [("hills", hills(400)), ("city", city(160))] {
         let triangles = mesh.triangles().len() as f64;
         let mesh = Mesh::new(mesh);
-        for kind in [
-            StructureKind::Bvh8,
-            StructureKind::Bvh8Fast,
-            StructureKind::Bvh8High,
+        // How many bytes a triangle, and how many times as much while it is built.
+        let normal = (if name == "city" { 66.0 } else { 60.0 }, 2.0);
+        for (kind, (limit, times)) in [
+            (StructureKind::Bvh8, normal),
+            (StructureKind::Bvh8Fast, normal),
+            (StructureKind::Bvh8High, normal),
+            (StructureKind::Bvh8Compact, (32.0, 3.5)),
         ] {
             let before = HELD.load(Relaxed);
             MOST.store(before, Relaxed);
@@ -113,9 +116,8 @@ fn trees_and_their_building_take_as_much_memory_as_they_say() {
             let held = (HELD.load(Relaxed) - before) as f64;
             let bytes = accel.structure_bytes() as f64;
             assert!(held <= 1.01 * bytes, "{name}, {kind}: {held} of {bytes}");
-            assert!(most <= 2.0 * bytes, "{name}, {kind}: {most} of {bytes}");
+            assert!(most <= times * bytes, "{name}, {kind}: {most} of {bytes}");
             let each = bytes / triangles;
-            let limit = if name == "city" { 66.0 } else { 60.0 };
             assert!(each <= limit, "{name}, {kind}: {each} bytes a triangle");
         }
     }

@@ -20,7 +20,7 @@ impl Wide {
         mut leaf: impl FnMut(&[u32], &mut Nearby) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let mut waiting = ArrayVec::<(Child, f64), STACK>::new();
-        waiting.push((self.tree.root, 0.0));
+        waiting.push((self.root(), 0.0));
         while let Some((child, distance)) = waiting.pop() {
             if distance > nearby.limit() {
                 continue;
@@ -29,8 +29,8 @@ impl Wide {
                 leaf(&self.list(child), nearby)?;
                 continue;
             }
-            let node = &self.tree.nodes[child.index()];
-            let distances = boxes.distances(node);
+            let node = self.node(child);
+            let distances = boxes.distances(&node);
             let mut near = ArrayVec::<(Child, f64), WIDTH>::new();
             for (k, distance) in distances.into_iter().enumerate() {
                 let is_there = node.lower[0][k] <= node.upper[0][k];

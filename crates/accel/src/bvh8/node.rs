@@ -33,6 +33,7 @@ const _: () = assert!(size_of::<Node>() == 256);
 /// | a node           | 0   | 31 bits: 8 times its index                                |
 /// | a leaf of a list | 1   | 3 bits: how many primitives, less 1; 28 bits: the first   |
 /// | a leaf of triangles | 1 | 1 bit: whether it has eight places and not four; 30 bits: 5 times the index of its first [`Quad`](super::Quad) |
+/// | a compact leaf | 1      | 31 bits: half the index of its first word in [`Blocks`](super::compact::Blocks) |
 ///
 /// The numbers of nodes and quads are those of 32 bytes before them, so that kernels find the
 /// address of either in the same way.
@@ -68,6 +69,18 @@ impl Child {
         Self(Self::LEAF | eight | (5 * quad as u32))
     }
 
+    /// A compact leaf.
+    pub(crate) fn block(word: usize) -> Self {
+        debug_assert!(
+            word.is_multiple_of(2) && word < 1 << 32,
+            "a block is found with 31 bits"
+        );
+        Self(Self::LEAF | (word / 2) as u32)
+    }
+
+    /// The compact leaf that has no triangles.
+    pub(crate) const EMPTY_BLOCK: Self = Self(Self::LEAF);
+
     /// The same, not of triangles, where so many nodes and so many primitives come before those
     /// that it counts.
     pub(crate) fn moved(self, [nodes, primitives]: [usize; 2]) -> Self {
@@ -101,6 +114,12 @@ impl Child {
     pub(crate) const fn range(self) -> std::ops::Range<usize> {
         let first = (self.0 & 0x0fff_ffff) as usize;
         first..first + (self.0 >> 28 & 7) as usize + 1
+    }
+
+    /// Of a compact leaf: its first word.
+    #[inline(always)]
+    pub(crate) const fn word(self) -> usize {
+        (self.0 & !Self::LEAF) as usize * 2
     }
 
     /// Of a leaf of triangles: its first quad.

@@ -6,18 +6,19 @@ use super::build::item::Item;
 use super::kernel::Near;
 use super::node::{Child, Node};
 use super::quad::Quad;
-use super::{Leaves, Wide};
+use super::{Body, Leaves, Wide};
 use crate::Reach;
 
 impl Wide {
-    /// Takes over the positions of a mesh with the same triangles; no if there are none in the leaves.
+    /// Takes over the positions of a mesh with the same triangles; no if leaves do not hold them, or not as
+    /// they are.
     ///
     /// Where space was cut, boxes of parts become boxes of whole triangles.
     pub(crate) fn refit(&mut self, mesh: &TriangleMesh, reach: &Reach) -> bool {
-        let Leaves::Quads(quads) = &mut self.leaves else {
+        let Body::Full(tree, Leaves::Quads(quads)) = &mut self.body else {
             return false;
         };
-        let (root, nodes, quads) = (self.tree.root, self.tree.nodes.to_mut(), quads.to_mut());
+        let (root, nodes, quads) = (tree.root, tree.nodes.to_mut(), quads.to_mut());
         if root.is_leaf() {
             lay(root, quads, mesh);
         }
@@ -60,10 +61,10 @@ impl Wide {
         moved: &[Moved],
         reach: &Reach,
     ) -> bool {
-        let Leaves::Quads(quads) = &mut self.leaves else {
+        let Body::Full(tree, Leaves::Quads(quads)) = &mut self.body else {
             return false;
         };
-        let (root, nodes, quads) = (self.tree.root, self.tree.nodes.to_mut(), quads.to_mut());
+        let (root, nodes, quads) = (tree.root, tree.nodes.to_mut(), quads.to_mut());
         renew(root, nodes, quads, mesh, moved);
         self.near = Near::new(reach);
         true

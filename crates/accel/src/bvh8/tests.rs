@@ -3,7 +3,7 @@
 use ombra_geometry::{Aabb, Point3, TriangleMesh};
 
 use super::validate::{Valid, validate};
-use super::{Balanced, Bvh8, Care, Effort, Fast, High, Items, Leaves};
+use super::{Balanced, Body, Bvh8, Care, Compact, Effort, Fast, High, Items, Leaves, Wide};
 use crate::bvh::tests::{bounded, hostile, scattered};
 use crate::{Bounded, Mesh, Primitives, Reach, Structure};
 
@@ -86,6 +86,25 @@ fn every_hostile_list_makes_a_valid_high_tree() {
     every_hostile_list_makes_a_valid_tree::<High>();
 }
 
+#[test]
+fn every_hostile_list_makes_a_valid_compact_tree() {
+    every_hostile_list_makes_a_valid_tree::<Compact>();
+}
+
+/// Everything that a tree over triangles is made of.
+fn parts(tree: &Wide) -> String {
+    match &tree.body {
+        Body::Full(_, Leaves::Lists(_) | Leaves::Places(_)) => panic!("there is a mesh"),
+        Body::Full(tree, Leaves::Quads(quads)) => {
+            let numbers: Vec<_> = (quads.iter())
+                .flat_map(|quad| quad.numbers.map(f32::to_bits))
+                .collect();
+            format!("{tree:?} {numbers:?}")
+        }
+        Body::Compact(tree, blocks) => format!("{tree:?} {blocks:?}"),
+    }
+}
+
 fn the_tree_is_the_same_for_any_number_of_threads<C: Care>() {
     let mesh = triangles(&uneven(100_000));
     let with = |threads| {
@@ -93,16 +112,7 @@ fn the_tree_is_the_same_for_any_number_of_threads<C: Care>() {
         pool.unwrap().install(|| over_triangles::<C>(&mesh).0.tree)
     };
     let (one, four) = (with(1), with(4));
-    assert!(one.tree.nodes[..] == four.tree.nodes[..]);
-    assert!((one.tree.root, one.tree.depth) == (four.tree.root, four.tree.depth));
-    let bits = |leaves: &Leaves| match leaves {
-        Leaves::Lists(_) | Leaves::Places(_) => panic!("there is a mesh"),
-        Leaves::Quads(quads) => quads
-            .iter()
-            .flat_map(|quad| quad.numbers.map(f32::to_bits))
-            .collect::<Vec<_>>(),
-    };
-    assert!(bits(&one.leaves) == bits(&four.leaves));
+    assert!(parts(&one) == parts(&four));
 }
 
 #[test]
@@ -110,6 +120,7 @@ fn trees_are_the_same_for_any_number_of_threads() {
     the_tree_is_the_same_for_any_number_of_threads::<Fast>();
     the_tree_is_the_same_for_any_number_of_threads::<Balanced>();
     the_tree_is_the_same_for_any_number_of_threads::<High>();
+    the_tree_is_the_same_for_any_number_of_threads::<Compact>();
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::kernel::{self, STACK};
 use super::node::{Child, WIDTH};
 use super::places::places;
 use super::quad::Quad;
-use super::{Leaves, Wide};
+use super::{Body, Leaves, Wide};
 use crate::{Span, TraversalRay, Visitor};
 
 impl Wide {
@@ -20,10 +20,10 @@ impl Wide {
         ray: &TraversalRay,
         visitor: &mut V,
     ) -> ControlFlow<()> {
-        if let Leaves::Lists(list) = &self.leaves
+        if let Body::Full(tree, Leaves::Lists(list)) = &self.body
             && let Some(ray) = kernel::ready(self.level, ray, &self.near)
         {
-            return kernel::walk_lists(self, list, &ray, visitor);
+            return kernel::walk_lists(self.level, tree, list, &ray, visitor);
         }
         self.traverse_plainly(ray, visitor)
     }
@@ -32,7 +32,7 @@ impl Wide {
     #[inline(never)]
     fn traverse_plainly<V: Visitor>(&self, ray: &TraversalRay, visitor: &mut V) -> ControlFlow<()> {
         let mut waiting = ArrayVec::<(Child, f64), STACK>::new();
-        waiting.push((self.tree.root, f64::NEG_INFINITY));
+        waiting.push((self.root(), f64::NEG_INFINITY));
         let inverse = ray.inverse_direction();
         let limit = |t_max: f64| t_max - ray.box_start;
         while let Some((child, entry)) = waiting.pop() {
@@ -44,7 +44,7 @@ impl Wide {
                 continue;
             }
             visitor.node();
-            let node = &self.tree.nodes[child.index()];
+            let node = self.node(child);
             let mut entered = ArrayVec::<(Child, f64), WIDTH>::new();
             for (bounds, child) in node.children() {
                 if let Some([from, _]) = ray.clip(inverse, &bounds.wide(), visitor.t_max()) {
@@ -58,18 +58,19 @@ impl Wide {
     }
 
     fn leaf<V: Visitor>(&self, leaf: Child, visitor: &mut V) -> ControlFlow<()> {
-        match &self.leaves {
-            Leaves::Lists(list) => visitor.leaf(&list[leaf.range()], Span::ALL),
-            Leaves::Quads(_) | Leaves::Places(_) => visitor.leaf(&self.list(leaf), Span::ALL),
+        match &self.body {
+            Body::Full(_, Leaves::Lists(list)) => visitor.leaf(&list[leaf.range()], Span::ALL),
+            _ => visitor.leaf(&self.list(leaf), Span::ALL),
         }
     }
 
     /// What is in a leaf, as a visitor knows it: the numbers of primitives, or places.
     pub(super) fn list(&self, leaf: Child) -> ArrayVec<u32, WIDTH> {
-        match &self.leaves {
-            Leaves::Lists(list) => list[leaf.range()].iter().copied().collect(),
-            Leaves::Places(_) => places(leaf),
-            Leaves::Quads(quads) => {
+        match &self.body {
+            Body::Compact(_, blocks) => blocks.triangles(leaf),
+            Body::Full(_, Leaves::Lists(list)) => list[leaf.range()].iter().copied().collect(),
+            Body::Full(_, Leaves::Places(_)) => places(leaf),
+            Body::Full(_, Leaves::Quads(quads)) => {
                 Quad::triangles(&quads[leaf.quad()..leaf.quad() + leaf.places() / 4])
             }
         }

@@ -4,8 +4,7 @@ use ombra_geometry::Aabb;
 
 use super::kernel::MAX_DEPTH;
 use super::node::{Child, MAX_LEAF};
-use super::quad::Quad;
-use super::{Leaves, Wide};
+use super::{Body, Wide};
 
 /// What a valid tree is like.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,7 +24,7 @@ pub(super) fn validate(tree: &Wide, boxes: &[Aabb]) -> Valid {
         found: vec![Vec::new(); boxes.len()],
         valid: Valid::default(),
     };
-    walk.child(tree.tree.root, &Aabb::UNBOUNDED, 1);
+    walk.child(tree.root(), &Aabb::UNBOUNDED, 1);
     for (primitive, (bounds, found)) in boxes.iter().zip(&walk.found).enumerate() {
         if bounds.is_empty() {
             assert!(found.is_empty(), "{primitive} is not to be found");
@@ -39,7 +38,11 @@ pub(super) fn validate(tree: &Wide, boxes: &[Aabb]) -> Valid {
         let all = found.iter().fold(Aabb::EMPTY, |all, part| all.union(*part));
         assert!(all.encloses(bounds), "{primitive} sticks out of its leaves");
     }
-    assert!(walk.valid.depth <= tree.tree.depth && tree.tree.depth <= MAX_DEPTH);
+    let depth = match &tree.body {
+        Body::Full(tree, _) => tree.depth,
+        Body::Compact(tree, _) => tree.depth,
+    };
+    assert!(walk.valid.depth <= depth && depth <= MAX_DEPTH);
     walk.valid
 }
 
@@ -57,25 +60,24 @@ impl Walk<'_> {
             return self.leaf(child, bounds);
         }
         self.valid.depth = self.valid.depth.max(depth);
-        let node = &self.tree.tree.nodes[child.index()];
+        let node = self.tree.node(child);
         for order in node.order {
             let places = (0..8).fold(0, |places, k| places | 1 << (order >> (3 * k) & 7));
             assert_eq!(places, 255, "an order names each child once");
         }
         for (own, below) in node.children() {
-            assert!(bounds.encloses(&own), "a child sticks out of its node");
-            self.child(below, &own, depth + 1);
+            // Boxes of the compact layout are larger than what is in them, each by its own grid.
+            let is_full = matches!(self.tree.body, Body::Full(..));
+            assert!(
+                !is_full || bounds.encloses(&own),
+                "a child sticks out of its node"
+            );
+            self.child(below, &own.intersection(*bounds), depth + 1);
         }
     }
 
     fn leaf(&mut self, leaf: Child, bounds: &Aabb) {
-        let list: Vec<u32> = match &self.tree.leaves {
-            Leaves::Lists(list) => list[leaf.range()].to_vec(),
-            Leaves::Quads(quads) | Leaves::Places(quads) => {
-                let quads = &quads[leaf.quad()..leaf.quad() + leaf.places() / 4];
-                Quad::triangles(quads).to_vec()
-            }
-        };
+        let list = self.tree.list(leaf);
         assert!((1..=MAX_LEAF).contains(&list.len()));
         self.valid.leaves += 1;
         self.valid.named += list.len();

@@ -1,5 +1,6 @@
 //! The tree that builders make: nodes, and leaves that name lists of primitives.
 
+use super::kernel::{Tree, stack};
 use super::node::{Child, Node};
 use super::store::Store;
 
@@ -30,6 +31,18 @@ impl WideTree {
             root: self.root,
             nodes: self.nodes.into(),
             depth: self.depth,
+        }
+    }
+}
+
+impl<N> WideTree<N> {
+    /// For the kernels.
+    #[inline(always)]
+    pub(super) const fn laid<Y: Copy>(&self, layout: Y) -> Tree<Y> {
+        Tree {
+            root: self.root,
+            layout,
+            stack: stack(self.depth),
         }
     }
 }

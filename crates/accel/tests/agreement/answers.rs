@@ -91,10 +91,11 @@ impl Answers {
 }
 
 /// What is traced by kernels.
-const WIDE: [StructureKind; 3] = [
+const WIDE: [StructureKind; 4] = [
     StructureKind::Bvh8,
     StructureKind::Bvh8Fast,
     StructureKind::Bvh8High,
+    StructureKind::Bvh8Compact,
 ];
 
 /// Holds every structure over the primitives, at every level of instructions, against brute force.

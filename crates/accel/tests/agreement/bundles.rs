@@ -8,7 +8,11 @@ use crate::answers::bits;
 use crate::meshes;
 use crate::numbers::Numbers;
 
-const KINDS: [StructureKind; 2] = [StructureKind::Bvh8, StructureKind::Bvh8High];
+const KINDS: [StructureKind; 3] = [
+    StructureKind::Bvh8,
+    StructureKind::Bvh8High,
+    StructureKind::Bvh8Compact,
+];
 
 /// Bundles of rays through the corners, edges and insides of a mesh: from one point, along one
 /// direction, and from a small region.

@@ -32,7 +32,8 @@ fn a_refitted_structure_answers_as_brute_force_does() {
             for by in [0.01, 0.5, 20.0, 1e6] {
                 let moved = shaken(&mesh, by);
                 let kept = accel.refit(Mesh::new(moved.clone()));
-                assert_eq!(kept, kind.name().starts_with("bvh8"), "{name}, {kind}");
+                let keeps = kind.name().starts_with("bvh8") && kind != StructureKind::Bvh8Compact;
+                assert_eq!(kept, keeps, "{name}, {kind}");
                 let judge = Accel::build(Mesh::new(moved.clone()), StructureKind::BruteForce);
                 for ray in rays::of_mesh(&moved, 0.1) {
                     let (found, expected) = (Answers::of(&accel, &ray), Answers::of(&judge, &ray));

@@ -50,7 +50,7 @@ impl<T: Real> TriangleKernel<T> for Watertight<T> {
         let d = ray.direction.to_array();
         let kz = ray.direction.dominant_axis() as usize;
         let [kx, ky, kz] = AXES[usize::from(d[kz] < T::zero())][kz];
-        let [x, y, z] = [kx, ky, kz].map(|axis| d[axis as usize]);
+        let (x, y, z) = (d[kx as usize], d[ky as usize], d[kz as usize]);
         let shear = Vector3::new(x / z, y / z, T::one() / z);
         Self { kx, ky, kz, shear }
     }
@@ -88,7 +88,8 @@ impl<T: Real> Watertight<T> {
     #[must_use]
     #[inline]
     pub fn decide(&self, corners: [Vector3<T>; 3], rule: EdgeRule) -> Option<Crossing> {
-        let [a, b, c] = corners.map(Vector3::wide);
+        let [a, b, c] = corners;
+        let (a, b, c) = (a.wide(), b.wide(), c.wide());
         let edge = edge_exact::<T>;
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         if on_both_sides([u, v, w]) {

@@ -4,7 +4,7 @@ use ombra_geometry::TriangleMesh;
 
 use super::super::node::Child;
 use super::super::places::{Places, places};
-use super::super::{Leaves, Wide};
+use super::super::{Body, Leaves, Wide};
 
 /// Why a mesh is not the one that a structure out of a file was built over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,8 +30,11 @@ impl Wide {
     /// Shows triangles by number from here on, if they are those of a mesh with as many of them.
     pub(crate) fn over(&mut self, mesh: &TriangleMesh, from: &Places) -> Result<(), OtherMesh> {
         let mut named = vec![false; mesh.triangles().len()];
-        let children = self.tree.nodes.iter().flat_map(|node| &node.child);
-        let leaves = children.chain([&self.tree.root]);
+        let Body::Full(tree, in_leaves) = &mut self.body else {
+            unreachable!("a tree out of a file has all its numbers");
+        };
+        let children = tree.nodes.iter().flat_map(|node| &node.child);
+        let leaves = children.chain([&tree.root]);
         for &leaf in leaves.filter(|child: &&Child| child.is_leaf()) {
             for place in places(leaf) {
                 let number = from.number(place);
@@ -52,9 +55,7 @@ impl Wide {
         if let Some((triangle, _)) = wrong {
             return Err(OtherMesh::Triangle(triangle as u32));
         }
-        if let Leaves::Places(_) = self.leaves {
-            self.leaves = Leaves::Quads(from.quads.clone());
-        }
+        *in_leaves = Leaves::Quads(from.quads.clone());
         Ok(())
     }
 }

@@ -13,7 +13,7 @@ use super::super::places::Places;
 use super::super::quad::Quad;
 use super::super::store::Store;
 use super::super::wide::WideTree;
-use super::super::{Bvh8, Leaves, PhantomData, Wide};
+use super::super::{Body, Bvh8, Leaves, PhantomData, Wide};
 use super::check::Content;
 use super::fault::{Found, StructureFileError};
 use super::header::{HEADER, Header};
@@ -92,7 +92,7 @@ impl Loaded {
         let (leaves, reach) = (Leaves::Places(quads.clone()), Reach::of(&header.bounds));
         Ok(Self {
             structure: Bvh8 {
-                tree: Wide::new(tree, leaves, &reach, header.repeats),
+                tree: Wide::new(Body::Full(tree, leaves), &reach, header.repeats),
                 care: PhantomData,
             },
             places: Places {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use ombra_geometry::Aabb;
 
-use super::super::{Leaves, Wide};
+use super::super::{Body, Leaves, Wide};
 use super::check::sum;
 use super::fault::StructureFileError;
 use super::header::Header;
@@ -19,20 +19,20 @@ impl Wide {
         bounds: Aabb,
         triangles: u32,
     ) -> Option<Result<(), StructureFileError>> {
-        let (Leaves::Quads(quads) | Leaves::Places(quads)) = &self.leaves else {
+        let Body::Full(tree, Leaves::Quads(quads) | Leaves::Places(quads)) = &self.body else {
             return None;
         };
         if cfg!(target_endian = "big") {
             return None;
         }
-        let nodes: &[u8] = bytemuck::cast_slice(&self.tree.nodes);
+        let nodes: &[u8] = bytemuck::cast_slice(&tree.nodes);
         let header = Header {
-            nodes: self.tree.nodes.len() as u32,
+            nodes: tree.nodes.len() as u32,
             quads: quads.len() as u32,
             triangles,
             repeats: self.repeats,
-            depth: self.tree.depth as u32,
-            root: self.tree.root,
+            depth: tree.depth as u32,
+            root: tree.root,
             nodes_sum: sum(nodes),
             quads_sum: sum(bytemuck::cast_slice(quads)),
             bounds,

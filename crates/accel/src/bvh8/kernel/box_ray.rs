@@ -44,7 +44,7 @@ impl BoxRay {
         let larger = each(|k| if size[k] > least { size[k] } else { least });
         let inverse = each(|k| 1.0 / larger[k].copysign(direction[k]));
         let pad = each(|k| pad.copysign(direction[k]));
-        let octant = direction.map(|d| d.to_bits() >> 31);
+        let octant = [dx.to_bits() >> 31, dy.to_bits() >> 31, dz.to_bits() >> 31];
         Some(Self {
             inverse,
             near: each(|k| -(origin[k] + pad[k]) * inverse[k]),

@@ -4,6 +4,7 @@ use ombra_geometry::{EdgeRule, Hit, Ray};
 
 use super::super::node::{Child, Node};
 use super::box_ray::BoxRay;
+use super::layout::Layout;
 #[cfg(target_arch = "aarch64")]
 use super::level::Neon;
 #[cfg(debug_assertions)]
@@ -19,11 +20,11 @@ use crate::{AnyHit, Statistics, TraversalRay};
 
 /// Makes of each kernel one function a level, and one that chooses.
 macro_rules! kernels {
-    ($($(#[$meta:meta])* fn $name:ident($($argument:ident: $type:ty),*) -> $answer:ty = $body:ident;)*) => {
+    ($($(#[$meta:meta])* fn $name:ident$(<$layout:ident>)?($($argument:ident: $type:ty),*) -> $answer:ty = $body:ident;)*) => {
         $(
             $(#[$meta])*
             #[inline]
-            pub(crate) fn $name(level: Level, $($argument: $type),*) -> $answer {
+            pub(crate) fn $name$(<$layout: Layout>)?(level: Level, $($argument: $type),*) -> $answer {
                 // SAFETY: a `Level` is only made where the processor has it; trees are whole.
                 unsafe {
                     match level {
@@ -44,9 +45,9 @@ macro_rules! kernels {
         mod scalar {
             use super::*;
             $(
-                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                pub(crate) unsafe fn $name$(<$layout: Layout>)?($($argument: $type),*) -> $answer {
                     // SAFETY: every processor has these.
-                    unsafe { $body::<Portable>($($argument),*) }
+                    unsafe { $body::<Portable$(, $layout)?>($($argument),*) }
                 }
             )*
         }
@@ -55,9 +56,9 @@ macro_rules! kernels {
         mod neon_twin {
             use super::*;
             $(
-                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                pub(crate) unsafe fn $name$(<$layout: Layout>)?($($argument: $type),*) -> $answer {
                     // SAFETY: every processor has these.
-                    unsafe { $body::<NeonTwin>($($argument),*) }
+                    unsafe { $body::<NeonTwin$(, $layout)?>($($argument),*) }
                 }
             )*
         }
@@ -67,9 +68,9 @@ macro_rules! kernels {
             use super::*;
             $(
                 #[target_feature(enable = "neon")]
-                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                pub(crate) unsafe fn $name$(<$layout: Layout>)?($($argument: $type),*) -> $answer {
                     // SAFETY: the caller's promise.
-                    unsafe { $body::<Neon>($($argument),*) }
+                    unsafe { $body::<Neon$(, $layout)?>($($argument),*) }
                 }
             )*
         }
@@ -79,9 +80,9 @@ macro_rules! kernels {
             use super::*;
             $(
                 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                pub(crate) unsafe fn $name$(<$layout: Layout>)?($($argument: $type),*) -> $answer {
                     // SAFETY: the caller's promise.
-                    unsafe { $body::<Avx2>($($argument),*) }
+                    unsafe { $body::<Avx2$(, $layout)?>($($argument),*) }
                 }
             )*
         }
@@ -91,9 +92,9 @@ macro_rules! kernels {
             use super::*;
             $(
                 #[target_feature(enable = "avx512f,avx512vl,avx512bw,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-                pub(crate) unsafe fn $name($($argument: $type),*) -> $answer {
+                pub(crate) unsafe fn $name$(<$layout: Layout>)?($($argument: $type),*) -> $answer {
                     // SAFETY: the caller's promise.
-                    unsafe { $body::<Avx512>($($argument),*) }
+                    unsafe { $body::<Avx512$(, $layout)?>($($argument),*) }
                 }
             )*
         }
@@ -102,17 +103,17 @@ macro_rules! kernels {
 
 kernels! {
     /// The closest hit; `None` if this ray is not for the kernels.
-    fn closest(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<Option<Found>> = closest_hit;
+    fn closest<Y>(tree: &Tree<Y>, near: &Near, ray: &Ray) -> Option<Option<Found>> = closest_hit;
     /// The closest hits of many rays. `slow` is told which rays are not for the kernels.
-    fn closest_many(tree: &Tree<'_>, near: &Near, rays: &[Ray], hits: &mut [Option<Hit>], slow: &mut dyn FnMut(usize)) -> () = closest_hits;
+    fn closest_many<Y>(tree: &Tree<Y>, near: &Near, rays: &[Ray], hits: &mut [Option<Hit>], slow: &mut dyn FnMut(usize)) -> () = closest_hits;
     /// Whether many rays have a hit. `slow` is told which rays are not for the kernels.
-    fn any_many(tree: &Tree<'_>, near: &Near, rays: &[Ray], hits: &mut [bool], slow: &mut dyn FnMut(usize)) -> () = any_hits;
+    fn any_many<Y>(tree: &Tree<Y>, near: &Near, rays: &[Ray], hits: &mut [bool], slow: &mut dyn FnMut(usize)) -> () = any_hits;
     /// The closest hit that `said` accepts, and what the search cost.
-    fn search(tree: &Tree<'_>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit) -> Option<Found> = said_hit;
+    fn search<Y>(tree: &Tree<Y>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit) -> Option<Found> = said_hit;
     /// The same, counting.
-    fn search_counted(tree: &Tree<'_>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
+    fn search_counted<Y>(tree: &Tree<Y>, ray: &mut SingleRay, rule: EdgeRule, said: &mut dyn FnMut(&Found) -> AnyHit, statistics: &mut Statistics) -> Option<Found> = said_hit_counted;
     /// Whether there is a hit; `None` if this ray is not for the kernels.
-    fn any(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> = any_hit;
+    fn any<Y>(tree: &Tree<Y>, near: &Near, ray: &Ray) -> Option<bool> = any_hit;
     /// A ray made ready for a walk to lists; `None` if boxes are to be tested in double precision.
     fn ready(ray: &TraversalRay, near: &Near) -> Option<BoxRay> = readied;
     /// One node of a walk to lists.
@@ -120,11 +121,15 @@ kernels! {
 }
 
 #[inline(always)]
-unsafe fn closest_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<Option<Found>> {
+unsafe fn closest_hit<L: Lanes, Y: Layout>(
+    tree: &Tree<Y>,
+    near: &Near,
+    ray: &Ray,
+) -> Option<Option<Found>> {
     let mut ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
     unsafe {
-        Some(walk::<L, _, _>(
+        Some(walk::<L, Y, _, _>(
             tree,
             &mut ray,
             EdgeRule::Closed,
@@ -135,39 +140,39 @@ unsafe fn closest_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Opti
 }
 
 #[inline(always)]
-unsafe fn any_hit<L: Lanes>(tree: &Tree<'_>, near: &Near, ray: &Ray) -> Option<bool> {
+unsafe fn any_hit<L: Lanes, Y: Layout>(tree: &Tree<Y>, near: &Near, ray: &Ray) -> Option<bool> {
     let mut ray = SingleRay::new(ray, near)?;
     // SAFETY: the caller's promise.
-    let found = unsafe { walk::<L, _, _>(tree, &mut ray, EdgeRule::Closed, &mut Any, &mut ()) };
+    let found = unsafe { walk::<L, Y, _, _>(tree, &mut ray, EdgeRule::Closed, &mut Any, &mut ()) };
     Some(found.is_some())
 }
 
 #[inline(always)]
-unsafe fn said_hit<L: Lanes>(
-    tree: &Tree<'_>,
+unsafe fn said_hit<L: Lanes, Y: Layout>(
+    tree: &Tree<Y>,
     ray: &mut SingleRay,
     rule: EdgeRule,
     said: &mut dyn FnMut(&Found) -> AnyHit,
 ) -> Option<Found> {
     // SAFETY: the caller's promise.
-    unsafe { walk::<L, _, _>(tree, ray, rule, &mut Said(said), &mut ()) }
+    unsafe { walk::<L, Y, _, _>(tree, ray, rule, &mut Said(said), &mut ()) }
 }
 
 #[inline(always)]
-unsafe fn said_hit_counted<L: Lanes>(
-    tree: &Tree<'_>,
+unsafe fn said_hit_counted<L: Lanes, Y: Layout>(
+    tree: &Tree<Y>,
     ray: &mut SingleRay,
     rule: EdgeRule,
     said: &mut dyn FnMut(&Found) -> AnyHit,
     statistics: &mut Statistics,
 ) -> Option<Found> {
     // SAFETY: the caller's promise.
-    unsafe { walk::<L, _, _>(tree, ray, rule, &mut Said(said), statistics) }
+    unsafe { walk::<L, Y, _, _>(tree, ray, rule, &mut Said(said), statistics) }
 }
 
 #[inline(always)]
-unsafe fn closest_hits<L: Lanes>(
-    tree: &Tree<'_>,
+unsafe fn closest_hits<L: Lanes, Y: Layout>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     hits: &mut [Option<Hit>],
@@ -177,12 +182,12 @@ unsafe fn closest_hits<L: Lanes>(
         hits[index] = found.some().map(|found| found.candidate().hit());
     };
     // SAFETY: the caller's promise.
-    unsafe { many::<L, Closest>(tree, near, rays, answer, slow) }
+    unsafe { many::<L, Y, Closest>(tree, near, rays, answer, slow) }
 }
 
 #[inline(always)]
-unsafe fn any_hits<L: Lanes>(
-    tree: &Tree<'_>,
+unsafe fn any_hits<L: Lanes, Y: Layout>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     hits: &mut [bool],
@@ -190,5 +195,5 @@ unsafe fn any_hits<L: Lanes>(
 ) {
     let answer = |index: usize, found: Found| hits[index] = found.some().is_some();
     // SAFETY: the caller's promise.
-    unsafe { many::<L, Any>(tree, near, rays, answer, slow) }
+    unsafe { many::<L, Y, Any>(tree, near, rays, answer, slow) }
 }

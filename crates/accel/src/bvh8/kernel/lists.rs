@@ -14,11 +14,13 @@
 use std::mem::MaybeUninit;
 use std::ops::ControlFlow;
 
-use super::super::Wide;
 use super::super::node::{Child, Node};
+use super::super::store::Store;
+use super::super::wide::WideTree;
 use super::box_ray::BoxRay;
 use super::dispatch::enter;
-use super::level::Lanes;
+use super::layout::Full;
+use super::level::{Lanes, Level};
 use super::ray::Near;
 use super::walk::{STACK, Slabs};
 use crate::{Span, TraversalRay, Visitor};
@@ -53,19 +55,20 @@ fn at_least(x: f64) -> f32 {
 /// Walks down a tree and shows the visitor what the leaves list.
 #[inline]
 pub(crate) fn walk_lists<V: Visitor>(
-    tree: &Wide,
+    level: Level,
+    tree: &WideTree<Store<Node>>,
     list: &[u32],
     ray: &BoxRay,
     visitor: &mut V,
 ) -> ControlFlow<()> {
-    let (nodes, level) = (&tree.tree.nodes[..], tree.level);
+    let nodes = &tree.nodes[..];
     let mut children = [const { MaybeUninit::<Child>::uninit() }; STACK];
     let mut entries = [const { MaybeUninit::<f32>::uninit() }; STACK];
     let children = children.as_mut_ptr().cast::<Child>();
     let entries = entries.as_mut_ptr().cast::<f32>();
     let mut t_max = at_least(visitor.t_max());
     let mut waiting = 0;
-    let mut child = tree.tree.root;
+    let mut child = tree.root;
     loop {
         if child.is_leaf() {
             visitor.leaf(&list[child.range()], Span::ALL)?;
@@ -112,7 +115,7 @@ pub(super) unsafe fn entered<L: Lanes>(
     // SAFETY: the caller's promise.
     unsafe {
         let slabs = Slabs::<L>::new(ray);
-        let (near, far) = slabs.entries(node, L::splat(t_max));
+        let (near, far) = slabs.entries::<Full<'_>>(node, L::splat(t_max));
         let order = node.order[(ray.octant & 7) as usize];
         let pushed = near.push(far, order, node.child.as_ptr(), to, entries);
         pushed.count_ones() as usize

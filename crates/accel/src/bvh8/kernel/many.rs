@@ -7,8 +7,9 @@
 
 use ombra_geometry::Ray;
 
+use super::layout::Layout;
 use super::level::Lanes;
-use super::packet::{PACKET, may_go_together, packet};
+use super::packet::{PACKET, may_go_together, octant, packet};
 use super::ray::Near;
 use super::stream::stream;
 use super::walk::{Found, Tree, Word};
@@ -25,8 +26,8 @@ const KINDS: usize = 32;
 /// # Safety
 /// - As for [`walk`](super::walk::walk).
 #[inline(always)]
-pub(crate) unsafe fn many<L: Lanes, W: Word + Default>(
-    tree: &Tree<'_>,
+pub(crate) unsafe fn many<L: Lanes, Y: Layout, W: Word + Default>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     mut answer: impl FnMut(usize, Found),
@@ -38,15 +39,15 @@ pub(crate) unsafe fn many<L: Lanes, W: Word + Default>(
     for (number, block) in rays.chunks(BLOCK).enumerate() {
         let first = number * BLOCK;
         let mut answer = |k: usize, found| answer(first + k, found);
-        for (ray, kind) in block.iter().zip(&mut kinds) {
-            *kind = kind_of(ray);
+        for (k, ray) in block.iter().enumerate() {
+            kinds[k] = kind_of(ray);
         }
         let mut count = 0;
         for chosen in numbers[..block.len()].chunks(PACKET) {
             let kinds = &kinds[usize::from(chosen[0])..][..chosen.len()];
             // SAFETY: the caller's promise; so below.
             let traced = kinds.iter().all(|kind| *kind == kinds[0])
-                && unsafe { together::<L, W>(tree, near, block, chosen, &mut answer) };
+                && unsafe { together::<L, Y, W>(tree, near, block, chosen, &mut answer) };
             if !traced {
                 left[count..count + chosen.len()].copy_from_slice(chosen);
                 count += chosen.len();
@@ -58,7 +59,7 @@ pub(crate) unsafe fn many<L: Lanes, W: Word + Default>(
         for end in ends {
             for chosen in sorted[begin..end].chunks(PACKET) {
                 // SAFETY: as above.
-                let traced = unsafe { together::<L, W>(tree, near, block, chosen, &mut answer) };
+                let traced = unsafe { together::<L, Y, W>(tree, near, block, chosen, &mut answer) };
                 if !traced {
                     left[count..count + chosen.len()].copy_from_slice(chosen);
                     count += chosen.len();
@@ -68,7 +69,7 @@ pub(crate) unsafe fn many<L: Lanes, W: Word + Default>(
         }
         // SAFETY: as above.
         unsafe {
-            stream::<L, W>(tree, near, block, &left[..count], answer, &mut |k| {
+            stream::<L, Y, W>(tree, near, block, &left[..count], answer, &mut |k| {
                 slow(first + k);
             });
         }
@@ -81,8 +82,8 @@ pub(crate) unsafe fn many<L: Lanes, W: Word + Default>(
 /// # Safety
 /// - As for [`many`].
 #[inline(always)]
-unsafe fn together<L: Lanes, W: Word>(
-    tree: &Tree<'_>,
+unsafe fn together<L: Lanes, Y: Layout, W: Word>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     chosen: &[u16],
@@ -91,7 +92,7 @@ unsafe fn together<L: Lanes, W: Word>(
     match <&[u16; PACKET]>::try_from(chosen) {
         Ok(chosen) if may_go_together(rays, chosen, near) => {
             // SAFETY: the caller's promise.
-            unsafe { packet::<L, W>(tree, near, rays, chosen, answer) }
+            unsafe { packet::<L, Y, W>(tree, near, rays, chosen, answer) }
         }
         _ => false,
     }
@@ -100,8 +101,7 @@ unsafe fn together<L: Lanes, W: Word>(
 /// The octant of a ray and its dominant axis.
 #[inline(always)]
 fn kind_of(ray: &Ray) -> u8 {
-    let [x, y, z] = ray.direction.to_array().map(|d| (d.to_bits() >> 31) as u8);
-    x | y << 1 | z << 2 | (ray.direction.dominant_axis() as u8) << 3
+    octant(ray) as u8 | (ray.direction.dominant_axis() as u8) << 3
 }
 
 /// Puts rays of one kind next to each other, otherwise as they come, and says where each kind ends.

@@ -6,15 +6,20 @@
 
 mod box_ray;
 mod dispatch;
+mod layout;
 mod level;
 mod lists;
 mod many;
 mod packet;
 mod ray;
+mod small;
 mod stream;
 mod walk;
 
 pub use level::Level;
+
+pub(super) use layout::Full;
+pub(super) use small::Small;
 
 pub(super) use dispatch::{any, any_many, closest, closest_many, ready, search, search_counted};
 pub(super) use lists::walk_lists;

@@ -23,10 +23,11 @@
 
 use std::mem::MaybeUninit;
 
-use ombra_geometry::Ray;
 use ombra_geometry::triangle::{TriangleKernel as _, Watertight};
+use ombra_geometry::{Ray, Vector3};
 
-use super::super::node::{Child, Node, WIDTH};
+use super::super::node::{Child, WIDTH};
+use super::layout::{Layout, Leaf};
 use super::level::{Lanes, WideLanes as _};
 use super::ray::{LEAST, Near, PAD, PAD_AT};
 use super::walk::{Found, STACK, Tree, Word, edge};
@@ -96,9 +97,9 @@ pub(super) fn may_go_together(rays: &[Ray], chosen: &[u16; PACKET], near: &Near)
 
 /// Bit k: the direction's component k is negative.
 #[inline(always)]
-fn octant(ray: &Ray) -> u32 {
-    let [x, y, z] = ray.direction.to_array().map(|d| d.to_bits() >> 31);
-    x | y << 1 | z << 2
+pub(super) fn octant(ray: &Ray) -> u32 {
+    let Vector3 { x, y, z } = ray.direction;
+    x.to_bits() >> 31 | y.to_bits() >> 31 << 1 | z.to_bits() >> 31 << 2
 }
 
 impl Packet {
@@ -117,8 +118,8 @@ impl Packet {
     ) -> bool {
         let one = &rays[usize::from(chosen[0])];
         let octant = octant(one);
-        let one = Watertight::new(one);
-        let axes = one.axes().map(|axis| axis as usize);
+        let [x, y, z] = Watertight::new(one).axes();
+        let axes = [x as usize, y as usize, z as usize];
         // SAFETY: the caller's promise; every number is written before it is read.
         unsafe {
             let packet = &mut *packet;
@@ -141,7 +142,11 @@ impl Packet {
             let mut ways = [[L::splat(f32::INFINITY); 2]; 3];
             let (mut fits, mut first) = (255, L::splat(f32::INFINITY));
             for from in (0..PACKET).step_by(GROUP) {
-                let d = [0, 1, 2].map(|k| L::load(direction[k].as_ptr().add(from)));
+                let d = [
+                    L::load(direction[0].as_ptr().add(from)),
+                    L::load(direction[1].as_ptr().add(from)),
+                    L::load(direction[2].as_ptr().add(from)),
+                ];
                 let size = [
                     d[0].larger(zero.minus(d[0])),
                     d[1].larger(zero.minus(d[1])),
@@ -178,14 +183,14 @@ impl Packet {
             let (mut wide, mut turned) = (0.0_f32, 0.0_f32);
             let mut between = [[0.0; 2]; 3];
             for axis in 0..3 {
-                let [low, high] = origins[axis].map(|x| least::<L>(x));
-                let high = -high;
+                let [low, high] = origins[axis];
+                let (low, high) = (least::<L>(low), -least::<L>(high));
                 let centre = near.centre[axes[axis]];
                 away = away.max((low - centre).abs()).max((high - centre).abs());
                 at = at.max(low.abs()).max(high.abs());
                 wide = wide.max(high - low);
-                let [slow, fast] = ways[axis].map(|x| least::<L>(x));
-                turned = turned.max(-fast - slow);
+                let [slow, fast] = ways[axis];
+                turned = turned.max(-least::<L>(fast) - least::<L>(slow));
                 between[axis] = [low, high];
             }
             let together = (away <= near.limit)
@@ -279,6 +284,7 @@ impl<L: Lanes> Beam<L> {
     /// - The processor has the instructions of `L`.
     #[inline(always)]
     unsafe fn new(packet: &Packet) -> Self {
+        let octant = packet.octant as usize;
         // SAFETY: the caller's promise.
         unsafe {
             Self {
@@ -287,7 +293,11 @@ impl<L: Lanes> Beam<L> {
                 least: splat(packet.least),
                 most: splat(packet.most),
                 first: L::splat(packet.first),
-                enter: [0, 1, 2].map(|k| (k + 3 * (packet.octant as usize >> k & 1)) * WIDTH),
+                enter: [
+                    3 * (octant & 1) * WIDTH,
+                    (1 + 3 * (octant >> 1 & 1)) * WIDTH,
+                    (2 + 3 * (octant >> 2 & 1)) * WIDTH,
+                ],
             }
         }
     }
@@ -297,16 +307,15 @@ impl<L: Lanes> Beam<L> {
     /// # Safety
     /// - The node may be read.
     #[inline(always)]
-    unsafe fn entries(&self, node: *const Node, last: f32) -> (L, L) {
-        let planes = node.cast::<f32>();
-        // SAFETY: the six lists of planes are the first numbers of a node.
+    unsafe fn entries<Y: Layout>(&self, node: *const Y::Node, last: f32) -> (L, L) {
+        // SAFETY: the caller's promise.
         unsafe {
             let (mut near, mut far) = (self.first, L::splat(last));
             for k in 0..3 {
                 let (enter, leave) = (self.enter[k], (3 + 2 * k) * WIDTH - self.enter[k]);
-                let way = L::load(planes.add(enter)).minus(self.enter_from[k]);
+                let way = Y::planes::<L>(node, enter, k).minus(self.enter_from[k]);
                 near = near.larger(way.times(self.least[k]).smaller(way.times(self.most[k])));
-                let way = L::load(planes.add(leave)).minus(self.leave_from[k]);
+                let way = Y::planes::<L>(node, leave, k).minus(self.leave_from[k]);
                 far = far.smaller(way.times(self.least[k]).larger(way.times(self.most[k])));
             }
             (near, far)
@@ -336,12 +345,14 @@ impl<L: Lanes> Slab<L> {
     /// # Safety
     /// - The node may be read.
     #[inline(always)]
-    unsafe fn new(node: *const Node, slot: usize, enter: &[usize; 3]) -> Self {
-        let planes = node.cast::<f32>();
+    unsafe fn new<Y: Layout>(node: *const Y::Node, slot: usize, enter: &[usize; 3]) -> Self {
         // SAFETY: the caller's promise.
         unsafe {
-            let at = |k: usize| L::splat(*planes.add(enter[k] + slot));
-            let opposite = |k: usize| L::splat(*planes.add((3 + 2 * k) * WIDTH - enter[k] + slot));
+            let at = |k: usize| L::splat(Y::plane(node, enter[k] + slot, k));
+            let opposite = |k: usize| {
+                let leave = (3 + 2 * k) * WIDTH - enter[k];
+                L::splat(Y::plane(node, leave + slot, k))
+            };
             Self {
                 enter: [at(0), at(1), at(2)],
                 leave: [opposite(0), opposite(1), opposite(2)],
@@ -377,8 +388,8 @@ impl<L: Lanes> Slab<L> {
 /// # Safety
 /// - As for [`walk`](super::walk::walk).
 #[inline(always)]
-pub(super) unsafe fn packet<L: Lanes, W: Word>(
-    tree: &Tree<'_>,
+pub(super) unsafe fn packet<L: Lanes, Y: Layout, W: Word>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     chosen: &[u16; PACKET],
@@ -400,13 +411,16 @@ pub(super) unsafe fn packet<L: Lanes, W: Word>(
         let beam = Beam::<L>::new(packet);
         let mut last = packet.last::<L>();
         let mut waiting = 0;
-        let mut node = tree.node(tree.root);
+        let mut node = tree.layout.node(tree.root);
         let mut offset = tree.root.0;
         'search: loop {
-            let (near, far) = beam.entries(node, last);
+            let (near, far) = beam.entries::<Y>(node, last);
             // A node's number is a multiple of eight: the places of its children are numbered within.
-            let places: [u32; WIDTH] = std::array::from_fn(|k| offset | k as u32);
-            let order = (*node).order[(packet.octant & 7) as usize];
+            let mut places = [offset; WIDTH];
+            for (k, place) in places.iter_mut().enumerate() {
+                *place |= k as u32;
+            }
+            let order = Y::order(node, packet.octant);
             let to = children.add(waiting);
             let pushed = near.push(far, order, places.as_ptr().cast(), to, entries.add(waiting));
             waiting += pushed.count_ones() as usize;
@@ -419,16 +433,16 @@ pub(super) unsafe fn packet<L: Lanes, W: Word>(
                     continue;
                 }
                 let place = (*children.add(waiting)).0;
-                let parent = tree.node(Child(place & !7));
+                let parent = tree.layout.node(Child(place & !7));
                 let slot = (place & 7) as usize;
-                let child = (*parent).child[slot];
-                let slab = Slab::<L>::new(parent, slot, &beam.enter);
+                let child = *Y::children(parent).add(slot);
+                let slab = Slab::<L>::new::<Y>(parent, slot, &beam.enter);
                 if child.is_leaf() {
-                    let (numbers, places) = (tree.leaf(child), child.places());
+                    let triangles = tree.layout.leaf(child);
                     let hit = if packet.one_origin {
-                        leaf::<L, W, true>(numbers, places, &slab, packet)
+                        leaf::<L, _, W, true>(triangles, &slab, packet)
                     } else {
-                        leaf::<L, W, false>(numbers, places, &slab, packet)
+                        leaf::<L, _, W, false>(triangles, &slab, packet)
                     };
                     if hit {
                         last = packet.last::<L>();
@@ -437,7 +451,7 @@ pub(super) unsafe fn packet<L: Lanes, W: Word>(
                         }
                     }
                 } else if meets(&slab, packet) {
-                    node = tree.node(child);
+                    node = tree.layout.node(child);
                     offset = child.0;
                     break;
                 }
@@ -474,11 +488,10 @@ unsafe fn meets<L: Lanes>(slab: &Slab<L>, packet: &Packet) -> bool {
 /// Tests the triangles of a leaf; whether there was a hit.
 ///
 /// # Safety
-/// - As for [`packet`]; and there is a leaf of so many places.
+/// - As for [`packet`]; and the leaf is one of the tree.
 #[inline(always)]
-unsafe fn leaf<L: Lanes, W: Word, const ONE_ORIGIN: bool>(
-    leaf: *const f32,
-    places: usize,
+unsafe fn leaf<L: Lanes, F: Leaf, W: Word, const ONE_ORIGIN: bool>(
+    leaf: F,
     slab: &Slab<L>,
     packet: &mut Packet,
 ) -> bool {
@@ -495,24 +508,27 @@ unsafe fn leaf<L: Lanes, W: Word, const ONE_ORIGIN: bool>(
         if count == 0 {
             return false;
         }
-        for k in 0..places {
-            let triangle = *leaf.add(9 * places + k);
+        for k in 0..leaf.places() {
+            let triangle = *leaf.numbers().add(k);
             if triangle.to_bits() == u32::MAX {
                 break;
             }
             let corner = |which: usize| {
-                packet
-                    .axes
-                    .map(|axis| *leaf.add((3 * which + axis) * places + k))
+                let [x, y, z] = packet.axes;
+                [
+                    leaf.coordinate(which, x, k),
+                    leaf.coordinate(which, y, k),
+                    leaf.coordinate(which, z, k),
+                ]
             };
             let mut corners = [corner(0), corner(1), corner(2)];
             if ONE_ORIGIN {
                 // Once for all rays.
-                let origin = packet.origin.map(|of| of[0]);
+                let [[x, ..], [y, ..], [z, ..]] = packet.origin;
                 for corner in &mut corners {
-                    for (coordinate, origin) in corner.iter_mut().zip(origin) {
-                        *coordinate -= origin;
-                    }
+                    corner[0] -= x;
+                    corner[1] -= y;
+                    corner[2] -= z;
                 }
             }
             for &(from, entered) in groups.get_unchecked(..count) {

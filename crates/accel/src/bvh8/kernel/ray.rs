@@ -131,12 +131,17 @@ impl SingleRay {
         }
         let boxes = BoxRay::new(origin, direction, ray.t_min, near)?;
         let watertight = Watertight::new(ray);
-        let axes = watertight.axes().map(|axis| axis as u32);
+        let [x, y, z] = watertight.axes();
+        let by_axis = [ox, oy, oz, 0.0];
         Some(Self {
             boxes,
             t_max: ray.t_max,
-            axes,
-            origin: axes.map(|axis| [ox, oy, oz, 0.0][axis as usize & 3]),
+            axes: [x as u32, y as u32, z as u32],
+            origin: [
+                by_axis[x as usize & 3],
+                by_axis[y as usize & 3],
+                by_axis[z as usize & 3],
+            ],
             watertight,
         })
     }

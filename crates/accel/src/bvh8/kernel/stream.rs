@@ -22,6 +22,7 @@ use std::mem::MaybeUninit;
 use ombra_geometry::Ray;
 
 use super::super::node::Child;
+use super::layout::{Layout, Leaf as _};
 use super::level::{Lanes, WideLanes as _};
 use super::ray::{Near, SingleRay};
 use super::walk::{Found, STACK, Sheared, Slabs, Tree, Word, shear};
@@ -56,8 +57,8 @@ struct Under {
 /// # Safety
 /// - As for [`walk`](super::walk::walk).
 #[inline(always)]
-pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
-    tree: &Tree<'_>,
+pub(crate) unsafe fn stream<L: Lanes, Y: Layout, W: Word + Default>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     chosen: &[u16],
@@ -110,7 +111,7 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
                 while turn != 0 {
                     let slot = turn.trailing_zeros();
                     turn &= turn - 1;
-                    let child = step::<L, W>(tree, flight.add(slot as usize));
+                    let child = step::<L, Y, W>(tree, flight.add(slot as usize));
                     sort_in(child, slot, [&mut at_nodes, &mut at_leaves, &mut over]);
                 }
             }
@@ -119,7 +120,7 @@ pub(crate) unsafe fn stream<L: Lanes, W: Word + Default>(
             while turn != 0 {
                 let slot = turn.trailing_zeros();
                 turn &= turn - 1;
-                let some = first_half::<L>(tree, flight.add(slot as usize));
+                let some = first_half::<L, Y>(tree, flight.add(slot as usize));
                 left |= u32::from(some) << slot;
             }
             while left != 0 {
@@ -185,8 +186,8 @@ unsafe fn top(under: *const Under) -> Child {
 /// # Safety
 /// - The slot may be written.
 #[inline(always)]
-unsafe fn begin(
-    tree: &Tree<'_>,
+unsafe fn begin<Y>(
+    tree: &Tree<Y>,
     near: &Near,
     rays: &[Ray],
     chosen: &mut std::slice::Iter<'_, u16>,
@@ -220,18 +221,18 @@ unsafe fn begin(
 /// # Safety
 /// - As for [`stream`].
 #[inline(always)]
-unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
+unsafe fn step<L: Lanes, Y: Layout, W: Word>(tree: &Tree<Y>, under: *mut Under) -> Child {
     // SAFETY: the caller's promise.
     unsafe {
         let waiting = (*under).waiting - 1;
         let children = (*under).children;
         let to = children.add(waiting);
-        let node = tree.node(*to);
+        let node = tree.layout.node(*to);
         let ray = &(*under).ray;
-        let (near, far) = Slabs::<L>::new(&ray.boxes).entries(node, L::splat(ray.t_max));
-        let what: *const Child = (&raw const (*node).child).cast();
+        let (near, far) = Slabs::<L>::new(&ray.boxes).entries::<Y>(node, L::splat(ray.t_max));
+        let what = Y::children(node);
         let pushed = if W::ORDERED {
-            let order = (*node).order[(ray.boxes.octant & 7) as usize];
+            let order = Y::order(node, ray.boxes.octant);
             near.push(far, order, what, to, (*under).entries.add(waiting))
         } else {
             near.push_unordered(far, what, to)
@@ -249,13 +250,13 @@ unsafe fn step<L: Lanes, W: Word>(tree: &Tree<'_>, under: *mut Under) -> Child {
 /// # Safety
 /// - As for [`stream`].
 #[inline(always)]
-unsafe fn first_half<L: Lanes>(tree: &Tree<'_>, under: *mut Under) -> bool {
+unsafe fn first_half<L: Lanes, Y: Layout>(tree: &Tree<Y>, under: *mut Under) -> bool {
     // SAFETY: the caller's promise.
     unsafe {
         (*under).waiting -= 1;
         let child = *(*under).children.add((*under).waiting);
-        let (from, places) = (tree.leaf(child), child.places());
-        let Sheared { a, b, c, left } = shear::<L>(from, places, &(*under).ray);
+        let leaf = tree.layout.leaf(child);
+        let Sheared { a, b, c, left } = shear::<L, _>(leaf, &(*under).ray);
         let sheared = (&raw mut (*under).sheared).cast::<f32>();
         a[0].store(sheared);
         a[1].store(sheared.add(8));
@@ -267,7 +268,7 @@ unsafe fn first_half<L: Lanes>(tree: &Tree<'_>, under: *mut Under) -> bool {
         c[1].store(sheared.add(56));
         c[2].store(sheared.add(64));
         (*under).left = left;
-        (*under).numbers = from.add(9 * places);
+        (*under).numbers = leaf.numbers();
         left != 0
     }
 }
@@ -367,12 +368,10 @@ unsafe fn take_in<L: Lanes, W: Word>(under: *mut Under) {
 
 /// Asks memory for what comes next.
 #[inline(always)]
-fn ask_for(tree: &Tree<'_>, child: Child) {
-    let (nodes, quads) = (tree.nodes.as_ptr().cast::<i8>(), tree.quads.as_ptr().cast());
-    let at = if child.is_leaf() { quads } else { nodes };
+fn ask_for<Y: Layout>(tree: &Tree<Y>, child: Child) {
     // Addresses of what is not there do no harm.
-    let at = at.wrapping_add(child.offset());
-    for line in 0..4 {
+    let at = tree.layout.begin(child).cast::<i8>();
+    for line in 0..Y::LINES {
         prefetch(at.wrapping_add(64 * line));
     }
 }

@@ -26,9 +26,9 @@
 use ombra_geometry::triangle::Watertight;
 use ombra_geometry::{Crossing, EdgeRule, Vector3};
 
-use super::super::node::{Child, Node, WIDTH};
-use super::super::quad::Quad;
+use super::super::node::{Child, WIDTH};
 use super::box_ray::BoxRay;
+use super::layout::{Layout, Leaf};
 use super::level::Lanes;
 use super::ray::SingleRay;
 use crate::{AnyHit, Candidate, Counter};
@@ -44,29 +44,13 @@ pub(crate) const fn stack(depth: usize) -> usize {
     (depth * (WIDTH - 1)).next_multiple_of(8) + 2 * WIDTH
 }
 
-/// The parts of a tree of triangles.
+/// A tree of triangles.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tree<'a> {
+pub(crate) struct Tree<Y> {
     pub(crate) root: Child,
-    pub(crate) nodes: &'a [Node],
-    pub(crate) quads: &'a [Quad],
+    pub(crate) layout: Y,
     /// How many places a stack needs.
     pub(crate) stack: usize,
-}
-
-impl Tree<'_> {
-    /// Where a node lies.
-    #[inline(always)]
-    pub(super) fn node(&self, child: Child) -> *const Node {
-        self.nodes.as_ptr().wrapping_byte_add(child.offset())
-    }
-
-    /// Where the numbers of a leaf lie.
-    #[inline(always)]
-    pub(super) fn leaf(&self, child: Child) -> *const f32 {
-        let quads = self.quads.as_ptr();
-        quads.wrapping_byte_add(child.offset()).cast()
-    }
 }
 
 /// A hit of a triangle.
@@ -158,8 +142,8 @@ pub(super) enum After {
 /// - The tree is whole: every child names a node or quads that are there, and no node lies deeper
 ///   than [`MAX_DEPTH`].
 #[inline(always)]
-pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
-    tree: &Tree<'_>,
+pub(crate) unsafe fn walk<L: Lanes, Y: Layout, W: Word, C: Counter>(
+    tree: &Tree<Y>,
     ray: &mut SingleRay,
     rule: EdgeRule,
     word: &mut W,
@@ -180,10 +164,10 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
         loop {
             while !child.is_leaf() {
                 counter.node();
-                let node = tree.node(child);
-                let (near, far) = slabs.entries(node, t_max);
+                let node = tree.layout.node(child);
+                let (near, far) = slabs.entries::<Y>(node, t_max);
                 let entered = near.at_most(far);
-                let what: *const Child = (&raw const (*node).child).cast();
+                let what = Y::children(node);
                 if entered & entered.wrapping_sub(1) == 0 {
                     // One child or none.
                     if entered != 0 {
@@ -199,7 +183,7 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
                 }
                 let to = children.add(waiting);
                 let nearest = if W::ORDERED {
-                    let order = (*node).order[(ray.boxes.octant & 7) as usize];
+                    let order = Y::order(node, ray.boxes.octant);
                     let pushed = near.push(far, order, what, to, entries.add(waiting));
                     order >> (3 * (31 - pushed.leading_zeros())) & 7
                 } else {
@@ -209,15 +193,7 @@ pub(crate) unsafe fn walk<L: Lanes, W: Word, C: Counter>(
                 waiting += entered.count_ones() as usize - 1;
                 child = *what.add(nearest as usize);
             }
-            match leaf::<L, W, C>(
-                tree.leaf(child),
-                child.places(),
-                ray,
-                &mut best,
-                rule,
-                word,
-                counter,
-            ) {
+            match leaf::<L, _, W, C>(tree.layout.leaf(child), ray, &mut best, rule, word, counter) {
                 After::Nothing => {}
                 After::Over => return best.some(),
                 After::Hit => {
@@ -286,47 +262,41 @@ impl<L: Lanes> Slabs<L> {
     /// # Safety
     /// - See [`walk`]; and the node may be read.
     #[inline(always)]
-    pub(super) unsafe fn entries(&self, node: *const Node, t_max: L) -> (L, L) {
-        let planes = node.cast::<f32>();
+    pub(super) unsafe fn entries<Y: Layout>(&self, node: *const Y::Node, t_max: L) -> (L, L) {
         let Self {
             inverse: [ix, iy, iz],
             near: [nx, ny, nz],
             far: [fx, fy, fz],
-            enter: [ex, ey, ez],
-            leave: [lx, ly, lz],
+            enter,
+            leave,
             t_min,
         } = *self;
-        // SAFETY: the six lists of planes are the first numbers of a node.
+        // SAFETY: the caller's promise.
         unsafe {
-            let x = L::load(planes.add(ex)).multiply_add(ix, nx);
-            let y = L::load(planes.add(ey)).multiply_add(iy, ny);
-            let z = L::load(planes.add(ez)).multiply_add(iz, nz);
+            let x = Y::planes::<L>(node, enter[0], 0).multiply_add(ix, nx);
+            let y = Y::planes::<L>(node, enter[1], 1).multiply_add(iy, ny);
+            let z = Y::planes::<L>(node, enter[2], 2).multiply_add(iz, nz);
             let near = x.larger(y).larger(z.larger(t_min));
-            let x = L::load(planes.add(lx)).multiply_add(ix, fx);
-            let y = L::load(planes.add(ly)).multiply_add(iy, fy);
-            let z = L::load(planes.add(lz)).multiply_add(iz, fz);
+            let x = Y::planes::<L>(node, leave[0], 0).multiply_add(ix, fx);
+            let y = Y::planes::<L>(node, leave[1], 1).multiply_add(iy, fy);
+            let z = Y::planes::<L>(node, leave[2], 2).multiply_add(iz, fz);
             let far = x.smaller(y).smaller(z.smaller(t_max));
             (near, far)
         }
     }
 }
 
-/// The corners of eight triangles that begin at `from`, relative to the origin and sheared.
+/// Corners relative to the origin and sheared.
 ///
 /// # Safety
-/// - See [`leaf`].
+/// - See [`walk`].
 #[inline(always)]
-unsafe fn corners<L: Lanes>(
-    from: *const f32,
-    axes: [usize; 3],
-    origin: [L; 3],
-    shear: [L; 2],
-) -> [L; 3] {
+unsafe fn moved<L: Lanes>(corners: [L; 3], origin: [L; 3], shear: [L; 2]) -> [L; 3] {
     // SAFETY: the caller's promise.
     unsafe {
-        let x = L::load(from.add(axes[0])).minus(origin[0]);
-        let y = L::load(from.add(axes[1])).minus(origin[1]);
-        let z = L::load(from.add(axes[2])).minus(origin[2]);
+        let x = corners[0].minus(origin[0]);
+        let y = corners[1].minus(origin[1]);
+        let z = corners[2].minus(origin[2]);
         [x.minus(shear[0].times(z)), y.minus(shear[1].times(z)), z]
     }
 }
@@ -353,34 +323,25 @@ pub(super) struct Sheared<L> {
 /// The first half of the test of a leaf's triangles.
 ///
 /// # Safety
-/// - See [`walk`]; and there is a leaf of so many places.
+/// - See [`walk`]; and the leaf is one of the tree.
 #[inline(always)]
-pub(super) unsafe fn shear<L: Lanes>(
-    leaf: *const f32,
-    places: usize,
-    ray: &SingleRay,
-) -> Sheared<L> {
-    // SAFETY: of a leaf of four places eight numbers are read from the beginning of each of nine
-    // components, the last four of them not being those of triangles; after the nine comes a
-    // tenth, so all lie in the leaf.
+pub(super) unsafe fn shear<L: Lanes, F: Leaf>(leaf: F, ray: &SingleRay) -> Sheared<L> {
+    // SAFETY: the caller's promise.
     unsafe {
         let shear = ray.watertight.shear();
         let shear = [L::splat(shear.x), L::splat(shear.y)];
         let origin = splat(ray.origin[0], ray.origin[1], ray.origin[2]);
-        let axes = [
-            ray.axes[0] as usize * places,
-            ray.axes[1] as usize * places,
-            ray.axes[2] as usize * places,
-        ];
-        let a = corners::<L>(leaf, axes, origin, shear);
-        let b = corners::<L>(leaf.add(3 * places), axes, origin, shear);
-        let c = corners::<L>(leaf.add(6 * places), axes, origin, shear);
+        let [x, y, z] = ray.axes;
+        let axes = [x as usize, y as usize, z as usize];
+        let a = moved(leaf.corners::<L>(0, axes), origin, shear);
+        let b = moved(leaf.corners::<L>(1, axes), origin, shear);
+        let c = moved(leaf.corners::<L>(2, axes), origin, shear);
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         let (least, most) = (u.smaller(v).smaller(w), u.larger(v).larger(w));
         // Not on both sides; and where a corner is NaN, no.
         let zero = L::splat(0.0);
         let inside = zero.at_most(least) | most.at_most(zero);
-        let left = inside & (255 >> (8 - places));
+        let left = inside & (255 >> (8 - leaf.places()));
         Sheared { a, b, c, left }
     }
 }
@@ -388,11 +349,10 @@ pub(super) unsafe fn shear<L: Lanes>(
 /// Tests the triangles of a leaf.
 ///
 /// # Safety
-/// - See [`walk`]; and there is a leaf of so many places.
+/// - See [`walk`]; and the leaf is one of the tree.
 #[inline(always)]
-pub(super) unsafe fn leaf<L: Lanes, W: Word, C: Counter>(
-    leaf: *const f32,
-    places: usize,
+pub(super) unsafe fn leaf<L: Lanes, F: Leaf, W: Word, C: Counter>(
+    leaf: F,
     ray: &mut SingleRay,
     best: &mut Found,
     rule: EdgeRule,
@@ -401,10 +361,10 @@ pub(super) unsafe fn leaf<L: Lanes, W: Word, C: Counter>(
 ) -> After {
     // SAFETY: the caller's promise.
     unsafe {
-        let Sheared { a, b, c, mut left } = shear::<L>(leaf, places, ray);
-        let numbers = leaf.add(9 * places);
+        let Sheared { a, b, c, mut left } = shear::<L, F>(leaf, ray);
+        let numbers = leaf.numbers();
         if C::COUNTS {
-            for k in 0..places {
+            for k in 0..leaf.places() {
                 if (*numbers.add(k)).to_bits() != u32::MAX {
                     counter.test();
                 }

@@ -4,10 +4,11 @@
 //! time are seldom wanted.
 
 use std::arch::x86_64::{
-    __m256, __m256i, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_cmp_ps, _mm256_cmp_ps_mask,
-    _mm256_div_ps, _mm256_fmadd_ps, _mm256_loadu_ps, _mm256_loadu_si256, _mm256_mask_storeu_ps,
-    _mm256_maskz_compress_epi32, _mm256_maskz_compress_ps, _mm256_max_ps, _mm256_min_ps,
-    _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps,
+    __m256, __m256i, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm_loadl_epi64, _mm256_cmp_ps,
+    _mm256_cmp_ps_mask, _mm256_cvtepi32_ps, _mm256_cvtepu8_epi32, _mm256_div_ps, _mm256_fmadd_ps,
+    _mm256_loadu_ps, _mm256_loadu_si256, _mm256_mask_storeu_ps, _mm256_maskz_compress_epi32,
+    _mm256_maskz_compress_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    _mm256_permutevar8x32_epi32, _mm256_permutevar8x32_ps, _mm256_permutex2var_ps,
     _mm256_set1_epi32, _mm256_set1_ps, _mm256_setr_epi32, _mm256_srlv_epi32, _mm256_storeu_ps,
     _mm256_storeu_si256, _mm256_sub_ps, _mm512_add_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps,
     _mm512_cvtps_pd, _mm512_div_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd,
@@ -44,6 +45,22 @@ impl Lanes for Avx512 {
     unsafe fn load(from: *const f32) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm256_loadu_ps(from) })
+    }
+
+    #[inline(always)]
+    unsafe fn load_bytes(from: *const u8) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(from.cast()))) })
+    }
+
+    #[inline(always)]
+    unsafe fn chosen(from: *const f32, which: *const u8) -> Self {
+        // SAFETY: as above. A permutation of two vectors looks at the lowest four bits.
+        unsafe {
+            let which = _mm256_cvtepu8_epi32(_mm_loadl_epi64(which.cast()));
+            let (low, high) = (_mm256_loadu_ps(from), _mm256_loadu_ps(from.add(8)));
+            Self(_mm256_permutex2var_ps(low, which, high))
+        }
     }
 
     #[inline(always)]

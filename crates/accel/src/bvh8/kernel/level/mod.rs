@@ -42,6 +42,40 @@ pub(crate) trait Lanes: Copy {
     /// - Eight numbers may be read at `from`.
     unsafe fn load(from: *const f32) -> Self;
 
+    /// Eight bytes as numbers.
+    ///
+    /// # Safety
+    /// - Eight bytes may be read at `from`.
+    #[inline(always)]
+    unsafe fn load_bytes(from: *const u8) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let bytes = from.cast::<[u8; 8]>().read();
+            let mut numbers = [0.0; 8];
+            for (number, byte) in numbers.iter_mut().zip(bytes) {
+                *number = f32::from(byte);
+            }
+            Self::load(numbers.as_ptr())
+        }
+    }
+
+    /// Of sixteen numbers those that eight bytes say; of a byte the lowest four bits count.
+    ///
+    /// # Safety
+    /// - Sixteen numbers may be read at `from`, and eight bytes at `which`.
+    #[inline(always)]
+    unsafe fn chosen(from: *const f32, which: *const u8) -> Self {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let which = which.cast::<[u8; 8]>().read();
+            let mut numbers = [0.0; 8];
+            for (number, k) in numbers.iter_mut().zip(which) {
+                *number = *from.add(usize::from(k & 15));
+            }
+            Self::load(numbers.as_ptr())
+        }
+    }
+
     /// To memory.
     ///
     /// # Safety

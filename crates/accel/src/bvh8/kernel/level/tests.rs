@@ -72,7 +72,7 @@ fn stored<L: Lanes>(lanes: L) -> [u32; 8] {
 unsafe fn answers<L: Lanes>() -> Vec<Vec<u32>> {
     let mut all = Vec::new();
     let mut eights = Eights(1);
-    for round in 0..4096 {
+    for round in 0..4096_u32 {
         let (a, b) = (eights.next(), eights.next());
         let order = eights.order();
         // SAFETY: all lists have eight numbers or more.
@@ -89,6 +89,13 @@ unsafe fn answers<L: Lanes>() -> Vec<Vec<u32>> {
                 all.push(stored(lanes).to_vec());
             }
             all.push(vec![x.at_most(y), x.at_most(x)]);
+
+            let bytes = order.wrapping_mul(0x9e37_79b1).to_le_bytes();
+            let bytes = [bytes, (round.wrapping_mul(0x85eb_ca6b)).to_le_bytes()].concat();
+            all.push(stored(L::load_bytes(bytes.as_ptr())).to_vec());
+            let sixteen = [a, b].concat();
+            let chosen = L::chosen(sixteen.as_ptr(), bytes.as_ptr());
+            all.push(stored(chosen).to_vec());
 
             let mut to = b;
             x.store_where(round % 256, to.as_mut_ptr());
