@@ -13,8 +13,8 @@ impl Accel<Mesh> {
     /// Of the wide trees boxes alone are worked out again, which takes a fraction of a build; the more
     /// vertices have moved against each other, the more of what is then found a new build would
     /// spare. Where no more than one triangle in sixteen moved, nothing but what is on the way to them
-    /// is looked at. A structure is built anew if it is of another kind or compact, if triangles differ, or if another
-    /// one than before has a corner that is not finite.
+    /// is looked at. A structure is built anew if it is of another kind or compact, if triangles
+    /// differ, or if another one than before has a corner that is not finite.
     pub fn refit(&mut self, mesh: Mesh) -> bool {
         let kept = self.refit_in_place(&mesh);
         if kept {
@@ -30,7 +30,8 @@ impl Accel<Mesh> {
         let (Some(old), Some(new)) = (old, new) else {
             return false;
         };
-        if self.structure.wide().is_none() || old.triangles() != new.triangles() {
+        let can = self.structure.wide().is_some_and(Wide::can_be_refitted);
+        if !can || old.triangles() != new.triangles() {
             return false;
         }
         // Those without an end stay as they are only if there are none.

@@ -35,8 +35,8 @@ const _: () = assert!(size_of::<Node>() == 256);
 /// | a leaf of triangles | 1 | 1 bit: whether it has eight places and not four; 30 bits: 5 times the index of its first [`Quad`](super::Quad) |
 /// | a compact leaf | 1      | 31 bits: half the index of its first word in [`Blocks`](super::compact::Blocks) |
 ///
-/// The numbers of nodes and quads are those of 32 bytes before them, so that kernels find the
-/// address of either in the same way.
+/// Of a tree with all numbers as they are, those of nodes and quads count 32 bytes before them, so
+/// that kernels find the address of either in the same way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(transparent)]
 pub(crate) struct Child(pub(crate) u32);
@@ -72,8 +72,8 @@ impl Child {
     /// A compact leaf.
     pub(crate) fn block(word: usize) -> Self {
         debug_assert!(
-            word.is_multiple_of(2) && word < 1 << 32,
-            "a block is found with 31 bits"
+            word.is_multiple_of(2) && word / 2 < (1 << 31) - 1,
+            "a block is found with 31 bits, of which one is not all ones"
         );
         Self(Self::LEAF | (word / 2) as u32)
     }

@@ -10,6 +10,11 @@ use super::{Body, Leaves, Wide};
 use crate::Reach;
 
 impl Wide {
+    /// Whether leaves hold triangles as they are.
+    pub(crate) const fn can_be_refitted(&self) -> bool {
+        matches!(self.body, Body::Full(_, Leaves::Quads(_)))
+    }
+
     /// Takes over the positions of a mesh with the same triangles; no if leaves do not hold them, or not as
     /// they are.
     ///

@@ -145,6 +145,7 @@ fn what_is_not_a_wide_tree_of_watertight_triangles_is_refused_and_leaves_no_file
     let shapes = Geometry::Shapes(Shapes::default());
     for (geometry, kind) in [
         (mesh.clone(), StructureKind::KdRopes),
+        (mesh.clone(), StructureKind::Bvh8Compact),
         (cramer, StructureKind::Bvh8),
         (shapes, StructureKind::Bvh8),
     ] {

@@ -30,7 +30,7 @@ pub(crate) struct Blocks {
 pub(crate) const SHARED: usize = 16;
 
 /// Words that may be read behind the last leaf: sixteen corners are read where there may be three.
-const BEHIND: usize = 16;
+const BEHIND: usize = SHARED;
 
 /// The most words of a leaf: triangles that share nothing.
 const MOST: usize = (1 + 9 * MAX_LEAF + MAX_LEAF + 3 * MAX_LEAF / 4).next_multiple_of(2);

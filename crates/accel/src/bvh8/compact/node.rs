@@ -18,8 +18,8 @@ use super::super::node::{Child, Node, WIDTH};
 /// that comes out is smaller than the one that went in.
 ///
 /// Where there is no child there is an empty leaf ([`Blocks`](super::Blocks) begin with one) with the
-/// planes 255 and 0. Where an axis has no extent, that is a box like another one, and to visit it does
-/// no harm.
+/// planes 255 and 0. Where an axis has no extent, that is a box like another one; so is it where the whole node
+/// is smaller than the pad of a ray. To visit it does no harm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct SmallNode {
@@ -31,7 +31,13 @@ pub(crate) struct SmallNode {
     pub(crate) child: [Child; WIDTH],
 }
 
-const _: () = assert!(size_of::<SmallNode>() == 128);
+const _: () = {
+    use std::mem::offset_of;
+    assert!(size_of::<SmallNode>() == 128);
+    // Walks read planes as one list, and orders in four bytes each.
+    assert!(offset_of!(SmallNode, upper) == offset_of!(SmallNode, lower) + 3 * WIDTH);
+    assert!(offset_of!(SmallNode, child) == offset_of!(SmallNode, order) + 3 * WIDTH);
+};
 
 /// The planes of a grid along one axis.
 #[derive(Clone, Copy)]
@@ -67,6 +73,10 @@ impl Grid {
 
     /// The highest plane that is not above a number, which is not below the origin.
     fn below(self, x: f32) -> u8 {
+        // Where the grid is finer than numbers are, many planes are one.
+        if self.plane(u8::MAX) <= x {
+            return u8::MAX;
+        }
         let mut q = self.near(x);
         while self.plane(q) > x {
             q -= 1;
@@ -79,6 +89,9 @@ impl Grid {
 
     /// The lowest plane that is not below a number, which is not above the last one.
     fn above(self, x: f32) -> u8 {
+        if self.plane(0) >= x {
+            return 0;
+        }
         let mut q = self.near(x);
         while self.plane(q) < x {
             q += 1;
@@ -92,7 +105,7 @@ impl Grid {
 
 impl SmallNode {
     /// A node made smaller; what its children are is told by `child`.
-    pub(super) fn new(node: &Node, mut child: impl FnMut(Child) -> Child) -> Self {
+    pub(crate) fn new(node: &Node, mut child: impl FnMut(Child) -> Child) -> Self {
         let mut small = Self {
             origin: [0.0; 3],
             step: [f32::MIN_POSITIVE; 3],

@@ -12,7 +12,8 @@ pub(crate) trait Layout: Copy {
     type Node;
     type Leaf: Leaf;
 
-    /// Of how many lines of 64 bytes nodes and most leaves are.
+    /// How many lines of 64 bytes are asked for before a child is visited: no node has more, and few
+    /// leaves have.
     const LINES: usize;
 
     /// A node.

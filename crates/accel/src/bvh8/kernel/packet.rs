@@ -348,15 +348,16 @@ impl<L: Lanes> Slab<L> {
     unsafe fn new<Y: Layout>(node: *const Y::Node, slot: usize, enter: &[usize; 3]) -> Self {
         // SAFETY: the caller's promise.
         unsafe {
-            let at = |k: usize| L::splat(Y::plane(node, enter[k] + slot, k));
-            let opposite = |k: usize| {
-                let leave = (3 + 2 * k) * WIDTH - enter[k];
-                L::splat(Y::plane(node, leave + slot, k))
+            let mut slab = Self {
+                enter: [L::splat(0.0); 3],
+                leave: [L::splat(0.0); 3],
             };
-            Self {
-                enter: [at(0), at(1), at(2)],
-                leave: [opposite(0), opposite(1), opposite(2)],
+            for (k, &enter) in enter.iter().enumerate() {
+                let leave = (3 + 2 * k) * WIDTH - enter;
+                slab.enter[k] = L::splat(Y::plane(node, enter + slot, k));
+                slab.leave[k] = L::splat(Y::plane(node, leave + slot, k));
             }
+            slab
         }
     }
 

@@ -13,7 +13,9 @@
 //!    rounded. Rounding i moves the plane by half of ε F (both terms alike), rounding o ± pad by
 //!    half of ε (|o| + pad), rounding k by as much, and rounding the sum by half of ε F; if a level
 //!    has no fused multiply-add, rounding the product by half of ε |p| besides. Since |p| is at most
-//!    |o| + F, that is below 3 ε (|o| + F) in all.
+//!    |o| + F, that is below 3 ε (|o| + F) in all. (A plane of the compact layout may lie beyond the
+//!    farthest corner, by less than 1/127 of its node: it has moved outward by far more than what
+//!    rounding adds for that.)
 //!
 //! So a pad of 16 ε F + 4 ε (|o| + F) is enough. It is computed rounded up: `PAD` and `PAD_AT`.
 

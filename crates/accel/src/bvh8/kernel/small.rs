@@ -153,3 +153,103 @@ impl Leaf for Block {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ombra_geometry::{Aabb, Point3, TriangleMesh};
+
+    use super::super::level::Portable;
+    use super::*;
+    use crate::bvh8::compact::pack;
+    use crate::bvh8::node::{Node, WIDTH};
+    use crate::bvh8::wide::WideTree;
+
+    fn stored(lanes: Portable) -> [f32; 8] {
+        let mut to = [0.0; 8];
+        // SAFETY: eight may be written, and every processor has this level.
+        unsafe { lanes.store(to.as_mut_ptr()) };
+        to
+    }
+
+    /// So many triangles whose corners are so many steps apart: 1 in a strip, 3 without a corner in
+    /// common.
+    fn mesh(count: u32, step: u32) -> TriangleMesh {
+        let point = |k: u32| Point3::new(k as f32, (k * k) as f32 * 0.1, -0.7 * k as f32);
+        let indices = (0..count).map(|k| [step * k, step * k + 1, step * k + 2]);
+        let points = (0..step * count + 3).map(point).collect();
+        TriangleMesh::new(points, indices.collect()).unwrap()
+    }
+
+    #[test]
+    fn a_leaf_holds_the_very_corners() {
+        for (count, step) in (1..=8).flat_map(|count| [1, 2, 3].map(|step| (count, step))) {
+            let mesh = mesh(count, step);
+            let list: Vec<u32> = (0..count).collect();
+            let tree = WideTree {
+                root: Child::list(0, list.len()),
+                nodes: Vec::new(),
+                depth: 1,
+            };
+            let (tree, blocks) = pack(&tree, &list, &mesh);
+            let layout = Small {
+                nodes: &tree.nodes,
+                words: blocks.words(),
+            };
+            // SAFETY: the leaf is one of this tree.
+            let leaf = unsafe { layout.leaf(tree.root) };
+            assert_eq!(leaf.places(), list.len());
+            for corner in 0..3 {
+                let axes = [2, 0, 1];
+                // SAFETY: as above.
+                let lanes = unsafe { leaf.corners::<Portable>(corner, axes) }.map(stored);
+                for (k, &triangle) in list.iter().enumerate() {
+                    let expected = mesh.corners(triangle as usize)[corner].to_array();
+                    // SAFETY: as above; there are so many triangles.
+                    let number = unsafe { *leaf.numbers().add(k) };
+                    assert_eq!(number.to_bits(), triangle);
+                    for (place, axis) in axes.into_iter().enumerate() {
+                        // SAFETY: as above.
+                        let alone = unsafe { leaf.coordinate(corner, axis, k) };
+                        let found = [lanes[place][k], alone];
+                        assert_eq!(found, [expected[axis]; 2], "{count} triangles, {step}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn walks_see_the_planes_that_a_node_says() {
+        let mut node = Node::EMPTY;
+        for k in 0..WIDTH {
+            let at = k as f32;
+            let bounds = Aabb {
+                min: Point3::new(at, -3.3 * at, 1e6 + at),
+                max: Point3::new(at + 0.3, 5.0 - at, 1e6 + 2.0 * at),
+            };
+            node.set(k, &bounds, Child::node(k + 1));
+        }
+        node.sort();
+        let small = SmallNode::new(&node, |child| child);
+        let expanded = small.expanded();
+        for axis in 0..3 {
+            let sides = [expanded.lower[axis], expanded.upper[axis]];
+            for (side, expected) in sides.into_iter().enumerate() {
+                let first = (axis + 3 * side) * WIDTH;
+                // SAFETY: the node has these planes.
+                let lanes = unsafe { Small::planes::<Portable>(&raw const small, first, axis) };
+                assert_eq!(stored(lanes), expected);
+                for (k, plane) in expected.into_iter().enumerate() {
+                    // SAFETY: as above.
+                    let found = unsafe { Small::plane(&raw const small, first + k, axis) };
+                    assert_eq!(found, plane);
+                }
+            }
+        }
+        for octant in 0..8 {
+            // SAFETY: the node is there.
+            let order = unsafe { Small::order(&raw const small, octant) };
+            assert_eq!(order, node.order[octant as usize]);
+        }
+    }
+}

@@ -139,7 +139,7 @@ pub(super) enum After {
 ///
 /// # Safety
 /// - The processor has the instructions of `L`.
-/// - The tree is whole: every child names a node or quads that are there, and no node lies deeper
+/// - The tree is whole: every child names a node or a leaf that is there, and no node lies deeper
 ///   than [`MAX_DEPTH`].
 #[inline(always)]
 pub(crate) unsafe fn walk<L: Lanes, Y: Layout, W: Word, C: Counter>(

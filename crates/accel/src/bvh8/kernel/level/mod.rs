@@ -52,8 +52,8 @@ pub(crate) trait Lanes: Copy {
         unsafe {
             let bytes = from.cast::<[u8; 8]>().read();
             let mut numbers = [0.0; 8];
-            for (number, byte) in numbers.iter_mut().zip(bytes) {
-                *number = f32::from(byte);
+            for (k, number) in numbers.iter_mut().enumerate() {
+                *number = f32::from(bytes[k]);
             }
             Self::load(numbers.as_ptr())
         }
@@ -69,8 +69,8 @@ pub(crate) trait Lanes: Copy {
         unsafe {
             let which = which.cast::<[u8; 8]>().read();
             let mut numbers = [0.0; 8];
-            for (number, k) in numbers.iter_mut().zip(which) {
-                *number = *from.add(usize::from(k & 15));
+            for (k, number) in numbers.iter_mut().enumerate() {
+                *number = *from.add(usize::from(which[k] & 15));
             }
             Self::load(numbers.as_ptr())
         }
