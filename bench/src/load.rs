@@ -22,7 +22,7 @@ use crate::{Bench, Settings, meshes};
 /// Loading over building.
 pub const BENCH: Bench = Bench {
     name: "load",
-    line: "a structure over a city loaded from a file, or mapped, over the same built",
+    line: "each structure that can be a file, over a city: loaded, or mapped, over built",
     run,
 };
 

@@ -100,7 +100,7 @@ structures! {
     Bvh8Fast(Bvh8<Fast>), "bvh8-fast", "eight boxes a node, cut along a Morton curve: built in a third of the time";
     Bvh8High(Bvh8<High>), "bvh8-high", "eight boxes a node, space itself cut where that pays: slower to build, quicker in rooms";
     Bvh8Compact(Bvh8<Compact>), "bvh8-compact", "eight boxes a node in half the memory: traced somewhat more slowly";
-    BvhLbvh(Bvh<Lbvh>), "bvh-lbvh", "boxes within boxes, cut along a Morton curve: the quickest to build";
+    BvhLbvh(Bvh<Lbvh>), "bvh-lbvh", "boxes within boxes, cut along a Morton curve: built in one quick pass";
 }
 
 impl AnyStructure {

@@ -7,8 +7,20 @@ use crate::commands::explain::ExplainArgs;
 use crate::commands::study::StudyArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
+use ombra::formats::ImageFormat;
 use ombra::geometry::triangle::TriangleTest;
 use ombra::render::{Crop, IntegratorKind, MAX_DEPTH, MAX_SIDE, MAX_SPP};
+
+/// The path of a picture, with the ending of a format.
+fn picture(text: &str) -> Result<PathBuf, String> {
+    match ImageFormat::of(text) {
+        Ok(_) => Ok(PathBuf::from(text)),
+        Err(_) => Err(format!(
+            "a file that ends in {} is wanted",
+            ImageFormat::KNOWN
+        )),
+    }
+}
 
 /// A ray tracing engine.
 ///
@@ -49,7 +61,7 @@ pub(crate) struct RenderArgs {
     pub(crate) scene: String,
 
     /// Where to write the picture; the ending chooses the format: png, exr, pfm, ppm
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", value_parser = picture)]
     pub(crate) output: PathBuf,
 
     /// How to turn rays into a picture

@@ -4,15 +4,16 @@ use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context as _, ensure};
-use clap::Args;
+use anyhow::Context as _;
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory as _};
 use ombra::accel::StructureKind;
 use ombra::render::MAX_SIDE;
 use ombra_bench::against::{self, Options, Peer};
 use ombra_bench::machine::Machine;
 use ombra_bench::{BENCHES, Settings, records};
 
-use crate::args::{Accel, accel, named};
+use crate::args::{Accel, Cli, accel, named};
 
 /// Without --against: parts of ombra that do the same job, their answers compared first, then their
 /// times.
@@ -69,15 +70,25 @@ pub(crate) struct BenchArgs {
     pub(crate) scenes: Vec<String>,
 
     /// Embree's library or its folder [default: OMBRA_EMBREE, else where `cargo xtask bench --setup` puts it]
-    #[arg(long, value_name = "PATH", requires = "against")]
+    #[arg(
+        long,
+        value_name = "PATH",
+        requires = "against",
+        conflicts_with = "benches"
+    )]
     pub(crate) embree: Option<PathBuf>,
 
     /// Tiny scenes, few rays, one round: whether it works
-    #[arg(long, requires = "against")]
+    #[arg(long, requires = "against", conflicts_with = "benches")]
     pub(crate) smoke: bool,
 
     /// Keep what is found in FOLDER/MACHINE/DATE-against.json and .md
-    #[arg(long, value_name = "FOLDER", requires = "against")]
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        requires = "against",
+        conflicts_with = "benches"
+    )]
     pub(crate) record: Option<PathBuf>,
 
     /// No talk
@@ -145,10 +156,12 @@ fn peers(args: &BenchArgs) -> anyhow::Result<String> {
 /// Parts of ombra against one another.
 fn own_parts(args: &BenchArgs) -> anyhow::Result<String> {
     for name in &args.benches {
-        ensure!(
-            BENCHES.iter().any(|bench| bench.name == name),
-            "there is no bench \"{name}\"; --list names them"
-        );
+        if BENCHES.iter().all(|bench| bench.name != name) {
+            let message = format!("there is no bench \"{name}\"; --list names them");
+            Cli::command()
+                .error(ErrorKind::InvalidValue, message)
+                .exit();
+        }
     }
     let base = Settings::default();
     let settings = Settings {

@@ -63,7 +63,8 @@ pub enum ImageFormat {
 }
 
 impl ImageFormat {
-    const KNOWN: &str = "png, exr, pfm, ppm";
+    /// All endings.
+    pub const KNOWN: &str = "png, exr, pfm, ppm";
 
     /// The format that the ending of a name stands for.
     ///

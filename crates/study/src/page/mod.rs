@@ -242,6 +242,6 @@ different things. Tests are primitives tested. Both are means over the rays and 
 with another one, so that what else the machine does falls on all alike. Bars are medians of the rounds, thin lines go
 from quartile to quartile. Rays are asked in batches, all threads taking from one heap. Speed over several kinds of rays
 or scenes is the geometric mean, in which none counts more than another.</p>
-<p><strong>Memory.</strong> The structure alone, without the primitives, on both levels of instancing.</p>
+<p><strong>Memory.</strong> The structure alone, on both levels of instancing: without the primitives, but of a mesh the wide trees (<code>bvh8</code> and its kin) hold the triangles themselves.</p>
 </section>
 ";
