@@ -13,7 +13,7 @@ fn parts_of_ombra_are_listed_and_compared() {
     let json = succeed(folder.path(), &[&arguments[..], &["--json"]].concat());
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["records"][0]["bench"], "whitted");
-    let talk = fail(folder.path(), &["bench", "no-such"], 1);
+    let talk = fail(folder.path(), &["bench", "no-such"], 2);
     assert!(talk.contains("--list"), "{talk}");
 }
 
@@ -42,6 +42,7 @@ fn a_peer_that_is_unknown_is_wrong_usage_and_one_that_is_not_there_a_failure() {
     let talk = fail(folder.path(), &["bench", "--against", "no-such"], 2);
     assert!(talk.contains("embree"), "{talk}");
     fail(folder.path(), &["bench", "--smoke"], 2);
+    fail(folder.path(), &["bench", "whitted", "--smoke"], 2);
     fail(
         folder.path(),
         &["bench", "whitted", "--against", "ombra"],
