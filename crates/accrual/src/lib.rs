@@ -1,0 +1,1 @@
+//! How long every place lies in shadow: exact in time, and sampled.
