@@ -1,1 +1,14 @@
 //! How long every place lies in shadow: exact in time, and sampled.
+//!
+//! [`Occluders`] are the polygons of a city, [`Exact`] measures how long they stand before the sun, seen
+//! from places, over [sheets](ombra_sun::Sheet) of its way.
+
+mod cover;
+mod exact;
+mod kernel;
+mod occluder;
+mod tile;
+mod way;
+
+pub use exact::Exact;
+pub use occluder::Occluders;

@@ -52,7 +52,7 @@ use quad::Quad;
 pub(crate) use refit::Moved;
 pub(crate) use shown::Shown;
 use store::Store;
-use wide::WideTree;
+pub(crate) use wide::WideTree;
 
 pub use kernel::Level;
 pub(crate) use kernel::{not_above, rounded};
@@ -202,6 +202,13 @@ impl<C: Care> Bvh8<C> {
             care: PhantomData,
         }
     }
+}
+
+/// The tree over boxes, with one in each leaf, and the list of primitives that leaves name.
+pub(crate) fn tree_over_boxes(items: Items, boxes: &[Aabb]) -> (WideTree, Vec<u32>) {
+    let (mut tree, list) = build::binned::build(items);
+    spread::spread(&mut tree, &|place| boxes[list[place] as usize]);
+    (tree, list)
 }
 
 impl<C: Care> Structure for Bvh8<C> {

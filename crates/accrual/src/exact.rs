@@ -1,0 +1,243 @@
+//! Shadow time, exact: no instant is looked at, only when it begins and ends.
+//!
+//! A polygon covers the sun, seen from a place, from when the sun crosses the plane through the place and one edge until it crosses that
+//! of another one. So each polygon is turned into a stretch of time, and the shadow of a day is the union of these. The
+//! sun's way is a chain of conic arcs that depart from its true one by less than a second of time.
+
+use ombra_accel::Level;
+use ombra_geometry::Point3;
+use ombra_sun::Sheet;
+use rayon::prelude::*;
+
+use crate::kernel::{Room, cover};
+use crate::occluder::Occluders;
+use crate::tile::{PLACES, Tile};
+use crate::way::Way;
+
+/// Measures the shadow of polygons at places, exactly in time.
+#[derive(Debug)]
+pub struct Exact<'a> {
+    occluders: &'a Occluders,
+    ways: Vec<Way>,
+    level: Level,
+}
+
+impl<'a> Exact<'a> {
+    /// For stretches of time that do not overlap.
+    #[must_use]
+    pub fn new(occluders: &'a Occluders, sheets: &[Sheet]) -> Self {
+        let sheets = sheets.par_iter().filter(|sheet| !sheet.arcs().is_empty());
+        Self {
+            occluders,
+            ways: sheets.map(Way::new).collect(),
+            level: Level::detect(),
+        }
+    }
+
+    /// The same at another level of instructions, with the same answers to the bit.
+    #[must_use]
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// How many seconds each place lies in shadow. Places that come one after another, sixteen each,
+    /// should lie near one another: it is quicker then.
+    #[must_use]
+    pub fn seconds(&self, places: &[Point3]) -> Vec<f64> {
+        let mut seconds = vec![0.0; places.len()];
+        seconds
+            .par_chunks_mut(PLACES)
+            .zip(places.par_chunks(PLACES))
+            .for_each_init(Room::new, |room, (seconds, places)| {
+                self.tile(places, seconds, room);
+            });
+        seconds
+    }
+
+    fn tile(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) {
+        let places: Vec<[f32; 3]> = places.iter().map(|p| p.to_array()).collect();
+        if places.iter().flatten().any(|x| !x.is_finite()) {
+            // A place that is nowhere has no shadow, and its neighbours are looked at without it.
+            for (place, seconds) in places.iter().zip(seconds) {
+                if place.iter().all(|x| x.is_finite()) {
+                    self.sum(&Tile::new(&[*place]), std::slice::from_mut(seconds), room);
+                }
+            }
+            return;
+        }
+        self.sum(&Tile::new(&places), seconds, room);
+    }
+
+    fn sum(&self, tile: &Tile, seconds: &mut [f64], room: &mut Room) {
+        for way in &self.ways {
+            cover(self.level, self.occluders, way, tile, room);
+            room.cover.each(way.len(), |arc, place, [from, to]| {
+                if let Some(seconds) = seconds.get_mut(place) {
+                    *seconds += way.seconds[arc] * f64::from(to - from);
+                }
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ombra_city::Facet;
+    use ombra_sun::{Hours, Place, Refraction, Sky};
+
+    use super::*;
+    use crate::kernel::{Side, covered};
+
+    /// Numbers that look random and are always the same (SplitMix64).
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn within(&mut self, from: f32, to: f32) -> f32 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+            from + (to - from) * ((z ^ z >> 31) >> 40) as f32 / (1 << 24) as f32
+        }
+    }
+
+    /// The walls and the roof of a turned box on the ground.
+    fn house(numbers: &mut Numbers, side: f32, owner: u32) -> Vec<Facet> {
+        let (x, y) = (numbers.within(-side, side), numbers.within(-side, side));
+        let (a, b) = (numbers.within(3.0, 15.0), numbers.within(3.0, 15.0));
+        let (sin, cos) = numbers.within(0.0, 3.0).sin_cos();
+        let top = numbers.within(3.0, 60.0);
+        let corner =
+            |u: f32, v: f32, z: f32| Point3::new(x + u * cos - v * sin, y + u * sin + v * cos, z);
+        let ring = [(a, b), (-a, b), (-a, -b), (a, -b)];
+        let facet = |corners| Facet {
+            corners,
+            is_two_sided: false,
+            owner,
+        };
+        let mut facets: Vec<Facet> = (0..4)
+            .map(|k| {
+                let ((u, v), (w, z)) = (ring[k], ring[(k + 1) % 4]);
+                facet([
+                    corner(u, v, 0.0),
+                    corner(w, z, 0.0),
+                    corner(w, z, top),
+                    corner(u, v, top),
+                ])
+            })
+            .collect();
+        facets.push(facet(ring.map(|(u, v)| corner(u, v, top))));
+        facets
+    }
+
+    fn days(latitude: f64) -> Vec<Sheet> {
+        let sky = Sky::new(Place::new(latitude, 5.0, 0.0).unwrap(), Refraction::None).unwrap();
+        let zone = jiff::tz::TimeZone::UTC;
+        let dates = [(2026, 6, 21), (2026, 9, 22), (2026, 12, 21)];
+        let spans = dates
+            .into_iter()
+            .flat_map(|(y, m, d)| Hours::default().spans(&sky, &zone, jiff::civil::date(y, m, d)));
+        spans.flat_map(|span| Sheet::cover(&sky, span)).collect()
+    }
+
+    /// Every polygon before every arc, one place after another.
+    fn plainly(occluders: &Occluders, sheets: &[Sheet], place: [f32; 3]) -> f64 {
+        let mut seconds = 0.0;
+        let mut cover = crate::cover::Cover::new();
+        let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        for way in sheets.iter().map(Way::new) {
+            cover.clear(way.len());
+            for occluder in &occluders.list {
+                let away = occluder.corner.map(|c| [0, 1, 2].map(|k| c[k] - place[k]));
+                let side = dot(away[0], occluder.normal);
+                if !(side < 0.0 || occluder.is_two_sided && side > 0.0) {
+                    continue;
+                }
+                let sign = if side > 0.0 { -1.0 } else { 1.0 };
+                let planes = [0, 1, 2, 3].map(|j| {
+                    let ([x, y, z], [dx, dy, dz]) = (occluder.edge[j], away[j]);
+                    [y * dz - z * dy, z * dx - x * dz, x * dy - y * dx].map(|n| sign * n)
+                });
+                for arc in 0..way.len() {
+                    let sides = planes.map(|plane| Side {
+                        from: dot(plane, way.knots[arc]),
+                        to: dot(plane, way.knots[arc + 1]),
+                        bulge: dot(plane, way.bulges[arc]),
+                    });
+                    covered(&sides, |from, to| cover.add(arc, 0, from, to));
+                }
+            }
+            cover.each(way.len(), |arc, place, [from, to]| {
+                if place == 0 {
+                    seconds += way.seconds[arc] * f64::from(to - from);
+                }
+            });
+        }
+        seconds
+    }
+
+    #[test]
+    fn the_tree_and_the_lanes_change_nothing() {
+        for (seed, latitude) in [
+            (1, 40.7),
+            (2, -33.0),
+            (3, 10.0),
+            (4, 64.0),
+            (5, 78.0),
+            (6, 0.0),
+        ] {
+            let mut numbers = Numbers(seed);
+            let mut facets: Vec<Facet> = (0..60)
+                .flat_map(|owner| house(&mut numbers, 120.0, owner))
+                .collect();
+            // Some soup besides, seen from both sides.
+            for _ in 0..40 {
+                let mut point = || {
+                    let [x, y] = [(); 2].map(|()| numbers.within(-150.0, 150.0));
+                    Point3::new(x, y, numbers.within(0.0, 50.0))
+                };
+                let [a, b, c] = [point(), point(), point()];
+                facets.push(Facet {
+                    corners: [a, b, c, c],
+                    is_two_sided: true,
+                    owner: 99,
+                });
+            }
+            let occluders = Occluders::new(&facets);
+            let sheets = days(latitude);
+            let places: Vec<Point3> = (0..100)
+                .map(|k| {
+                    let (x, y) = ((k % 10) as f32 * 3.0, (k / 10) as f32 * 3.0);
+                    Point3::new(x - 14.0, y - 14.0, if k % 7 == 0 { 20.0 } else { 0.0 })
+                })
+                .collect();
+            let exact = Exact::new(&occluders, &sheets);
+            let found = exact.seconds(&places);
+            let mut shaded = 0;
+            for (place, &found) in places.iter().zip(&found) {
+                let expected = plainly(&occluders, &sheets, place.to_array());
+                shaded += usize::from(expected > 0.0);
+                assert!(
+                    (found - expected).abs() < 0.02,
+                    "latitude {latitude}, {place:?}: {found} and plainly {expected}"
+                );
+            }
+            assert!(shaded > 50);
+            for level in Level::available() {
+                let exact = Exact::new(&occluders, &sheets).at_level(level);
+                assert_eq!(exact.seconds(&places), found, "{level:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_throws_no_shadow_and_no_time_has_none() {
+        let nothing = Occluders::new(&[]);
+        let places = [Point3::ORIGIN, Point3::new(f32::NAN, 0.0, 0.0)];
+        assert_eq!(Exact::new(&nothing, &days(45.0)).seconds(&places), [0.0; 2]);
+        let facets = house(&mut Numbers(1), 1.0, 0);
+        let some = Occluders::new(&facets);
+        assert_eq!(Exact::new(&some, &[]).seconds(&places), [0.0; 2]);
+        assert!(Exact::new(&some, &days(45.0)).seconds(&[]).is_empty());
+    }
+}

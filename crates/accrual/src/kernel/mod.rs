@@ -1,0 +1,15 @@
+//! The kernel: a tile of places against the tree of polygons and the whole way of the sun.
+#![expect(
+    unsafe_code,
+    reason = "vector instructions, and reads without a check of what a tree is known to hold"
+)]
+
+mod dispatch;
+mod lanes;
+mod polygon;
+mod reference;
+mod walk;
+
+pub(crate) use dispatch::{Room, cover};
+#[cfg(test)]
+pub(crate) use reference::{Side, covered};

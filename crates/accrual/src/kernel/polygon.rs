@@ -1,0 +1,245 @@
+//! One polygon against a tile and some arcs.
+
+use super::lanes::{Lanes, Mask as _};
+use super::reference::{Side, covered};
+use crate::cover::{Cover, JOIN, Piece};
+use crate::occluder::Occluder;
+use crate::tile::{PLACES, Tile};
+use crate::way::Way;
+
+/// Three numbers for each place.
+type Vectors<P> = [P; 3];
+
+/// The product of vectors with one vector.
+///
+/// # Safety
+/// - The processor has the instructions of `P`; so below.
+#[inline(always)]
+unsafe fn dot<P: Lanes>([x, y, z]: Vectors<P>, [a, b, c]: [f32; 3]) -> P {
+    // SAFETY: the caller's promise.
+    unsafe {
+        (x.times(P::splat(a)))
+            .plus(y.times(P::splat(b)))
+            .plus(z.times(P::splat(c)))
+    }
+}
+
+/// The normals of the planes through the places and one edge, inward for who sees the corners
+/// counter-clockwise.
+///
+/// # Safety
+/// - As above.
+#[inline(always)]
+unsafe fn plane<P: Lanes>([x, y, z]: [f32; 3], [dx, dy, dz]: Vectors<P>) -> Vectors<P> {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let (x, y, z) = (P::splat(x), P::splat(y), P::splat(z));
+        [
+            y.times(dz).minus(z.times(dy)),
+            z.times(dx).minus(x.times(dz)),
+            x.times(dy).minus(y.times(dx)),
+        ]
+    }
+}
+
+/// Covers what the polygon covers of some arcs, for all places of a tile.
+///
+/// Of each plane through a place and an edge only the sign matters on which side the sun is. Along an
+/// arc that is a polynomial of degree two in time, with at most one root where the signs at the ends
+/// differ. Where it might have two, within the sag of the arc, the plain way takes over.
+///
+/// # Safety
+/// - The processor has the instructions of `P`, which are sixteen; the way has the arcs.
+#[inline(always)]
+pub(super) unsafe fn polygon<P: Lanes>(
+    occluder: &Occluder,
+    way: &Way,
+    [first, last]: [usize; 2],
+    tile: &Tile,
+    cover: &mut Cover,
+) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let zero = P::splat(0.0);
+        let at = [
+            P::load(tile.at[0].as_ptr()),
+            P::load(tile.at[1].as_ptr()),
+            P::load(tile.at[2].as_ptr()),
+        ];
+        let mut away = [[zero; 3]; 4];
+        for j in 0..4 {
+            for axis in 0..3 {
+                away[j][axis] = P::splat(occluder.corner[j][axis]).minus(at[axis]);
+            }
+        }
+        // From which side the places see it; from within its plane nothing is seen.
+        let side = dot(away[0], occluder.normal);
+        let mut seen = side.below(zero);
+        let behind = zero.below(side);
+        if occluder.is_two_sided {
+            seen = seen.or(behind);
+        }
+        if seen.bits() == 0 {
+            return;
+        }
+        let mut planes = [[zero; 3]; 4];
+        let mut near = [zero; 4];
+        for j in 0..4 {
+            planes[j] = plane(occluder.edge[j], away[j]);
+            if occluder.is_two_sided {
+                for axis in 0..3 {
+                    let turned = zero.minus(planes[j][axis]);
+                    planes[j][axis] = turned.or_where_not(behind, planes[j][axis]);
+                }
+            }
+            // Not less than how far the sun may depart from the chord, as seen from this plane.
+            let [x, y, z] = planes[j];
+            near[j] = (x.size().plus(y.size()).plus(z.size())).times(P::splat(way.sag));
+        }
+        let mut from = [zero; 4];
+        for j in 0..4 {
+            from[j] = dot(planes[j], *way.knots.get_unchecked(first));
+        }
+        for arc in first..=last {
+            let knot = *way.knots.get_unchecked(arc + 1);
+            let mut to = [zero; 4];
+            let mut open = seen;
+            for j in 0..4 {
+                to[j] = dot(planes[j], knot);
+                // Outside all along.
+                let highest = from[j].larger(to[j]).plus(near[j]);
+                open = open.and_not(highest.below(zero));
+            }
+            if open.bits() != 0 {
+                one_arc(&planes, &near, from, to, open, way, arc, cover);
+            }
+            from = to;
+        }
+    }
+}
+
+/// The same for one arc, for those places that are open.
+///
+/// # Safety
+/// - As above.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "what a loop hands to its body")]
+unsafe fn one_arc<P: Lanes>(
+    planes: &[Vectors<P>; 4],
+    near: &[P; 4],
+    from: [P; 4],
+    to: [P; 4],
+    open: P::Mask,
+    way: &Way,
+    arc: usize,
+    cover: &mut Cover,
+) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let (zero, one) = (P::splat(0.0), P::splat(1.0));
+        let (mut begin, mut end) = (zero, one);
+        let mut open = open;
+        let mut grazing = open.and_not(open);
+        let mut bulges = [zero; 4];
+        for j in 0..4 {
+            let (a, b) = (from[j], to[j]);
+            let bulge = dot(planes[j], *way.bulges.get_unchecked(arc));
+            bulges[j] = bulge;
+            let (enters, leaves) = (a.below(zero), b.below(zero));
+            let both = enters.and(leaves);
+            let crosses = enters.or(leaves).and_not(both);
+            // Where the sun may cross twice: it is nearer than the bulge, which is on the other side.
+            let nearest = a.size().smaller(b.size());
+            let far = bulge.size().times(P::splat(0.25)).below(nearest);
+            let away = (zero.below(bulge).and_not(both)).or(both.and_not(zero.below(bulge)));
+            let twice = open.and_not(far).and_not(crosses).and_not(away);
+            grazing = grazing.or(twice.and(nearest.below(near[j])));
+            open = open.and_not(both.and_not(twice));
+            if open.and(crosses).bits() == 0 {
+                continue;
+            }
+            let slope = b.minus(a).plus(bulge);
+            let square = slope.times(slope).plus(P::splat(4.0).times(bulge).times(a));
+            let root = square.larger(zero).root();
+            let signed = zero.minus(root).or_where_not(enters, root);
+            let u = a.plus(a).over(signed.minus(slope));
+            let later = u.larger(begin);
+            begin = later.or_where_not(crosses.and(enters), begin);
+            let sooner = u.smaller(end);
+            end = sooner.or_where_not(crosses.and_not(enters), end);
+        }
+        grazing = grazing.and(open);
+        if grazing.bits() != 0 {
+            graze(from, to, bulges, grazing.bits(), arc, cover);
+            open = open.and_not(grazing);
+        }
+        open = open.and(begin.below(end));
+        if open.bits() == 0 {
+            return;
+        }
+        // The union: what touches the covered beginning, else the covered end.
+        let join = P::splat(JOIN);
+        let (rows_before, rows_after) = (
+            cover.before[arc].as_mut_ptr(),
+            cover.after[arc].as_mut_ptr(),
+        );
+        let (before, after) = (P::load(rows_before), P::load(rows_after));
+        let first = open.and_not(before.plus(join).below(begin));
+        let rest = open.and_not(first);
+        let second = rest.and_not(end.below(after.minus(join)));
+        let before = end.larger(before).or_where_not(first, before);
+        let after = begin.smaller(after).or_where_not(second, after);
+        before.store(rows_before);
+        after.store(rows_after);
+        let mut left = rest.and_not(second).bits();
+        if left != 0 {
+            let (mut begins, mut ends) = ([0.0; PLACES], [0.0; PLACES]);
+            begin.store(begins.as_mut_ptr());
+            end.store(ends.as_mut_ptr());
+            while left != 0 {
+                let place = left.trailing_zeros() as usize;
+                left &= left - 1;
+                cover.pieces.push(Piece {
+                    arc: arc as u8,
+                    place: place as u8,
+                    from: begins[place],
+                    to: ends[place],
+                });
+            }
+        }
+        let gap = before.below(after.minus(join));
+        cover.full |= u128::from(gap.bits() == 0) << arc;
+    }
+}
+
+/// Places where the sun may cross an edge twice: one after another.
+///
+/// # Safety
+/// - As above.
+#[inline(never)]
+unsafe fn graze<P: Lanes>(
+    from: [P; 4],
+    to: [P; 4],
+    bulges: [P; 4],
+    places: u32,
+    arc: usize,
+    cover: &mut Cover,
+) {
+    let mut numbers = [[[0.0_f32; PLACES]; 3]; 4];
+    for (j, numbers) in numbers.iter_mut().enumerate() {
+        // SAFETY: the caller's promise; there is room for sixteen.
+        unsafe {
+            from[j].store(numbers[0].as_mut_ptr());
+            to[j].store(numbers[1].as_mut_ptr());
+            bulges[j].store(numbers[2].as_mut_ptr());
+        }
+    }
+    for place in (0..PLACES).filter(|place| places >> place & 1 == 1) {
+        let sides = numbers.map(|[from, to, bulge]| Side {
+            from: from[place],
+            to: to[place],
+            bulge: bulge[place],
+        });
+        covered(&sides, |begin, end| cover.add(arc, place, begin, end));
+    }
+}

@@ -1,0 +1,221 @@
+//! The walk down the tree: which polygons may come before which arcs, for a tile.
+//!
+//! A node's box, made larger by the tile, lies within an interval of azimuth, and so before an interval of
+//! arcs; and it is no higher above the tile than so much, at a distance that is no less than so much, so
+//! all arcs that stand higher pass over it. Arcs that are covered already are left out before that, so
+//! the test gets stricter as the day fills: what is near comes first.
+
+use ombra_accel::BoxNode;
+
+use super::lanes::{Lanes, Mask as _};
+use super::polygon::polygon;
+use crate::cover::Cover;
+use crate::occluder::Occluders;
+use crate::tile::Tile;
+use crate::way::{TURN_PAD, Way, wrapped};
+
+/// What waits to be looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Waiting {
+    /// As in the node above.
+    child: ombra_accel::BoxChild,
+    arcs: [u8; 2],
+}
+
+/// Covers what of the way is covered for the tile. `N` has eight lanes, `P` sixteen.
+///
+/// # Safety
+/// - The processor has the instructions of both.
+#[inline(always)]
+pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
+    occluders: &Occluders,
+    way: &Way,
+    tile: &Tile,
+    cover: &mut Cover,
+    waiting: &mut Vec<Waiting>,
+) {
+    cover.clear(way.len());
+    waiting.clear();
+    let nodes = occluders.tree.nodes();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let around = Around::<N>::new(tile, way, occluders.reach);
+        let mut node = occluders.tree.root();
+        let mut arcs = [0, way.len() - 1];
+        'search: loop {
+            around.push(&nodes[node], arcs, way, cover.full, waiting);
+            loop {
+                let Some(next) = waiting.pop() else {
+                    break 'search;
+                };
+                arcs = trimmed(next.arcs.map(usize::from), cover.full);
+                if arcs[0] > arcs[1] {
+                    continue;
+                }
+                match next.child.leaf() {
+                    None => {
+                        node = next.child.node();
+                        continue 'search;
+                    }
+                    Some(which) => {
+                        polygon::<P>(&occluders.list[which], way, arcs, tile, cover);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Without what is covered for all places at either end.
+#[inline(always)]
+fn trimmed([first, last]: [usize; 2], full: u128) -> [usize; 2] {
+    let left = !full >> first << first;
+    let left = left & (u128::MAX >> (127 - last));
+    if left == 0 {
+        return [1, 0];
+    }
+    [
+        left.trailing_zeros() as usize,
+        127 - left.leading_zeros() as usize,
+    ]
+}
+
+/// A tile as boxes are looked at from it.
+struct Around<N> {
+    least: [N; 3],
+    most: [N; 3],
+    start: f32,
+    sign: f32,
+}
+
+impl<N: Lanes> Around<N> {
+    /// # Safety
+    /// - The processor has the instructions of `N`.
+    #[inline(always)]
+    unsafe fn new(tile: &Tile, way: &Way, reach: f32) -> Self {
+        let [x, y, z] = tile.least;
+        let [u, v, w] = tile.most;
+        let size = x.abs().max(y.abs()).max(z.abs());
+        let size = size.max(u.abs()).max(v.abs()).max(w.abs());
+        // Against rounding of differences.
+        let pad = 2.0 * f32::EPSILON * (size + reach) + f32::MIN_POSITIVE;
+        // SAFETY: the caller's promise.
+        unsafe {
+            Self {
+                least: [N::splat(x - pad), N::splat(y - pad), N::splat(z - pad)],
+                most: [N::splat(u + pad), N::splat(v + pad), N::splat(w + pad)],
+                start: way.start,
+                sign: way.sign,
+            }
+        }
+    }
+
+    /// Pushes those children that may cover something, the nearest last.
+    ///
+    /// # Safety
+    /// - The processor has the instructions of `N`.
+    #[inline(always)]
+    unsafe fn push(
+        &self,
+        node: &BoxNode,
+        arcs: [usize; 2],
+        way: &Way,
+        full: u128,
+        waiting: &mut Vec<Waiting>,
+    ) {
+        let (mut from, mut to) = ([0.0_f32; 8], [0.0_f32; 8]);
+        let (mut height, mut distance) = ([0.0_f32; 8], [0.0_f32; 8]);
+        // SAFETY: the caller's promise; a node has eight boxes.
+        let (above, within) = unsafe {
+            let zero = N::splat(0.0);
+            let lx = N::load(node.lower[0].as_ptr()).minus(self.most[0]);
+            let ly = N::load(node.lower[1].as_ptr()).minus(self.most[1]);
+            let hx = N::load(node.upper[0].as_ptr()).minus(self.least[0]);
+            let hy = N::load(node.upper[1].as_ptr()).minus(self.least[1]);
+            let up = N::load(node.upper[2].as_ptr()).minus(self.least[2]);
+            let above = zero.below(up).bits();
+            if above == 0 {
+                return;
+            }
+            let dx = lx.larger(zero.minus(hx)).larger(zero);
+            let dy = ly.larger(zero.minus(hy)).larger(zero);
+            let squared = dx.times(dx).plus(dy.times(dy));
+            let within = !zero.below(squared).bits();
+            // The two corners between which the box lies, clockwise: north of the tile the western one
+            // comes first, south of it the eastern one.
+            let (north, south) = (zero.below(ly), hy.below(zero));
+            let (east, west) = (zero.below(lx), hx.below(zero));
+            let beside = lx.or_where_not(east, hx);
+            let ax = lx.or_where_not(north, hx.or_where_not(south, beside));
+            let ay = (hy.or_where_not(east, ly)).or_where_not(
+                north,
+                (ly.or_where_not(west, hy)).or_where_not(south, hy.or_where_not(east, ly)),
+            );
+            let bx = hx.or_where_not(north, lx.or_where_not(south, beside));
+            let by = (hy.or_where_not(west, ly)).or_where_not(
+                north,
+                (ly.or_where_not(east, hy)).or_where_not(south, ly.or_where_not(east, hy)),
+            );
+            turns(ax, ay).store(from.as_mut_ptr());
+            turns(bx, by).store(to.as_mut_ptr());
+            up.store(height.as_mut_ptr());
+            squared.store(distance.as_mut_ptr());
+            (above, within)
+        };
+        let begin = waiting.len();
+        let mut left = above;
+        let mut keys = [0.0_f32; 8];
+        while left != 0 {
+            let k = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let mut own = arcs;
+            if within >> k & 1 == 0 {
+                let (mut a, mut b) = (from[k], to[k]);
+                if self.sign < 0.0 {
+                    (a, b) = (b, a);
+                }
+                let a = wrapped(self.sign * (a - self.start) - TURN_PAD);
+                let b = wrapped(self.sign * (b - self.start) + TURN_PAD);
+                let [first, last] = way.between(a, b);
+                own = [arcs[0].max(first), arcs[1].min(last)];
+                if own[0] > own[1] {
+                    continue;
+                }
+            }
+            own = trimmed(own, full);
+            if own[0] > own[1] || height[k] * height[k] <= distance[k] * way.lowest(own) {
+                continue;
+            }
+            // The farthest first.
+            let key = distance[k];
+            let mut place = waiting.len() - begin;
+            waiting.push(Waiting {
+                child: node.child[k],
+                arcs: own.map(|arc| arc as u8),
+            });
+            while place > 0 && keys[place - 1] < key {
+                keys[place] = keys[place - 1];
+                waiting.swap(begin + place, begin + place - 1);
+                place -= 1;
+            }
+            keys[place] = key;
+        }
+    }
+}
+
+/// See [`turn`](crate::way::turn).
+///
+/// # Safety
+/// - The processor has the instructions of `N`.
+#[inline(always)]
+unsafe fn turns<N: Lanes>(east: N, north: N) -> N {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let zero = N::splat(0.0);
+        let q = east.over(east.size().plus(north.size()));
+        let behind = north.below(zero);
+        let west = q.below(zero);
+        let ahead = N::splat(4.0).plus(q).or_where_not(west, q);
+        N::splat(2.0).minus(q).or_where_not(behind, ahead)
+    }
+}
