@@ -1,0 +1,105 @@
+//! Stretches of time, and sets of them.
+
+use crate::Instant;
+
+/// Seconds below which a stretch is taken for none: what the ends are known to.
+const SLIVER: f64 = 1e-3;
+
+/// From one instant to a later one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The first instant.
+    pub start: Instant,
+    /// The last.
+    pub end: Instant,
+}
+
+impl Span {
+    /// From two instants, in order.
+    #[must_use]
+    pub const fn new(start: Instant, end: Instant) -> Self {
+        Self { start, end }
+    }
+
+    /// How long, in seconds; not negative unless the two were turned round.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.end - self.start
+    }
+
+    /// The instants of both, if those are a millisecond or more.
+    fn common(&self, other: &Self) -> Option<Self> {
+        let both = Self::new(self.start.max(other.start), self.end.min(other.end));
+        both.lasting()
+    }
+
+    fn lasting(self) -> Option<Self> {
+        (self.seconds() >= SLIVER).then_some(self)
+    }
+}
+
+/// Sorted and disjoint: those that overlap or touch become one.
+pub(crate) fn union(mut spans: Vec<Span>) -> Vec<Span> {
+    spans.sort_by_key(|span| span.start);
+    let mut merged: Vec<Span> = Vec::with_capacity(spans.len());
+    for span in spans {
+        match merged.last_mut() {
+            Some(last) if span.start <= last.end => last.end = last.end.max(span.end),
+            _ => merged.push(span),
+        }
+    }
+    merged.retain(|span| span.seconds() >= SLIVER);
+    merged
+}
+
+/// What two sets share. Both are sorted and disjoint, and so is the result.
+pub(crate) fn intersection(a: &[Span], b: &[Span]) -> Vec<Span> {
+    a.iter()
+        .flat_map(|a| b.iter().filter_map(move |b| a.common(b)))
+        .collect()
+}
+
+/// What is in `a` but not in `b`. Both are sorted and disjoint, and so is the result.
+pub(crate) fn difference(a: &[Span], b: &[Span]) -> Vec<Span> {
+    let mut left = Vec::with_capacity(a.len() + b.len());
+    for span in a {
+        let mut start = span.start;
+        for hole in b {
+            if hole.end > start && hole.start < span.end {
+                left.extend(Span::new(start, hole.start).lasting());
+                start = hole.end;
+            }
+        }
+        left.extend(Span::new(start, span.end).lasting());
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn span(start: f64, end: f64) -> Span {
+        Span::new(Instant::from_seconds(start), Instant::from_seconds(end))
+    }
+
+    #[test]
+    fn sets_of_spans() {
+        let a = union(vec![
+            span(5.0, 7.0),
+            span(0.0, 2.0),
+            span(2.0, 3.0),
+            span(9.0, 9.0),
+        ]);
+        assert_eq!(a, [span(0.0, 3.0), span(5.0, 7.0)]);
+        let b = [span(-1.0, 1.0), span(2.0, 6.0)];
+        assert_eq!(
+            intersection(&a, &b),
+            [span(0.0, 1.0), span(2.0, 3.0), span(5.0, 6.0)]
+        );
+        assert_eq!(difference(&a, &b), [span(1.0, 2.0), span(6.0, 7.0)]);
+        assert_eq!(difference(&b, &a), [span(-1.0, 0.0), span(3.0, 5.0)]);
+        assert_eq!(difference(&a, &a), []);
+        assert_eq!(difference(&a, &[]), a);
+    }
+}
