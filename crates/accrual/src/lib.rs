@@ -7,8 +7,10 @@ mod cover;
 mod exact;
 mod kernel;
 mod occluder;
+mod sampled;
 mod tile;
 mod way;
 
 pub use exact::Exact;
 pub use occluder::Occluders;
+pub use sampled::Sampled;

@@ -1,7 +1,8 @@
 //! Files in and out: bytes to descriptions, and pictures to bytes. Nothing is traced here.
 //!
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
-//! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), and pictures ([`read_texture`], [`read_image`]); out go
+//! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), cities ([`city::read_city`]:
+//! GeoJSON, CityJSON), and pictures ([`read_texture`], [`read_image`]); out go
 //! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
 //! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
 //! [`scene::parse_scene`], which open no file at all.
@@ -23,6 +24,7 @@
 //! line or byte, what is wrong there and what would be right; what it can pass over is a
 //! [`Finding`].
 
+pub mod city;
 pub mod minray;
 pub mod scene;
 pub mod sha256;

@@ -67,9 +67,9 @@ pub(super) unsafe fn polygon<P: Lanes>(
             P::load(tile.at[2].as_ptr()),
         ];
         let mut away = [[zero; 3]; 4];
-        for j in 0..4 {
+        for (away, corner) in away.iter_mut().zip(&occluder.corner) {
             for axis in 0..3 {
-                away[j][axis] = P::splat(occluder.corner[j][axis]).minus(at[axis]);
+                away[axis] = P::splat(corner[axis]).minus(at[axis]);
             }
         }
         // From which side the places see it; from within its plane nothing is seen.
@@ -87,9 +87,8 @@ pub(super) unsafe fn polygon<P: Lanes>(
         for j in 0..4 {
             planes[j] = plane(occluder.edge[j], away[j]);
             if occluder.is_two_sided {
-                for axis in 0..3 {
-                    let turned = zero.minus(planes[j][axis]);
-                    planes[j][axis] = turned.or_where_not(behind, planes[j][axis]);
+                for along in &mut planes[j] {
+                    *along = zero.minus(*along).or_where_not(behind, *along);
                 }
             }
             // Not less than how far the sun may depart from the chord, as seen from this plane.

@@ -1,0 +1,7 @@
+//! Shadow time as a whole: against closed forms, against rays, and what must always hold.
+
+mod against_rays;
+mod closed_forms;
+mod numbers;
+mod solids;
+mod whole;

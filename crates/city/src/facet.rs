@@ -1,0 +1,26 @@
+//! What casts shadow.
+
+use ombra_geometry::Point3;
+
+/// A flat convex polygon of three or four corners that casts shadow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    /// Local metres, counter-clockwise as seen from outside. A triangle repeats its last corner.
+    pub corners: [Point3; 4],
+    /// Whether both sides cast shadow: it is no part of a closed solid.
+    pub is_two_sided: bool,
+    /// The building that it belongs to, by its place in [`City::buildings`](crate::City), or
+    /// [`Facet::TERRAIN`].
+    pub owner: u32,
+}
+
+impl Facet {
+    /// The owner of what is ground and no building.
+    pub const TERRAIN: u32 = u32::MAX;
+
+    /// Whether it has three corners.
+    #[must_use]
+    pub fn is_triangle(&self) -> bool {
+        self.corners[2] == self.corners[3]
+    }
+}

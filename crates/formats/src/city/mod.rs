@@ -1,0 +1,111 @@
+//! Cities: buildings with heights, out of the files that planners have.
+//!
+//! - **GeoJSON** (RFC 7946): a `FeatureCollection`, a `Feature` or a bare geometry. `Polygon`s and
+//!   `MultiPolygon`s, in collections, too, are outlines of buildings; heights are attributes
+//!   ([`ombra_city::heights`]). The third number of a position is the z of the ground. Coordinates
+//!   are longitude and latitude, unless the `crs` member of older files names another system.
+//! - **A list of polygons**, as the examples of deck.gl have it:
+//!   `[{"height": 30, "polygon": [[lon, lat], …]}, …]`.
+//! - **CityJSON** 1.0, 1.1 and 2.0: buildings and their parts in the highest level of detail up to
+//!   3, and terrain (`TINRelief`). Other objects cast no shadow and are counted.
+//!
+//! Which of them a file is, its content says and not its name; each may be packed with gzip.
+//!
+//! ```no_run
+//! use ombra_formats::city::{CityOptions, read_city};
+//!
+//! let city = read_city("city.geojson", &CityOptions::default())?;
+//! for finding in &city.findings {
+//!     eprintln!("note: {finding}");
+//! }
+//! println!("{} buildings", city.buildings.len());
+//! # Ok::<(), ombra_formats::FormatError>(())
+//! ```
+
+mod cityjson;
+mod footprint;
+mod geojson;
+mod json;
+mod polygon_list;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use ombra_city::heights::Heights;
+use ombra_city::{City, CityError, Crs, Draft};
+
+use crate::error::{Fault, FormatError};
+use crate::input::Input;
+use crate::limits::Limits;
+use json::Kind;
+
+/// What can be read, as messages have it.
+const KNOWN: &str = "GeoJSON, CityJSON and lists of polygons";
+
+/// How a city is to be read.
+#[derive(Clone, Debug, Default)]
+pub struct CityOptions {
+    /// What the coordinates mean, whatever the file says. Needed where it says nothing and is no
+    /// GeoJSON.
+    pub crs: Option<Crs>,
+    /// How heights of outlines are told.
+    pub heights: Heights,
+    /// How much the reader may take on.
+    pub limits: Limits,
+}
+
+/// Reads a city; what its file is, its content says.
+///
+/// What is wrong with single buildings is in [`City::findings`].
+///
+/// # Errors
+/// When the file cannot be opened, is of no known kind or not well-formed, when its coordinates do
+/// not belong to their reference system, and when there is neither a building nor terrain in it.
+pub fn read_city(path: impl AsRef<Path>, options: &CityOptions) -> Result<City, FormatError> {
+    read(&Input::on_disk(path.as_ref()), options)
+}
+
+/// The same for a file in memory. Its name is for messages only.
+///
+/// # Errors
+/// As those of [`read_city`].
+pub fn read_city_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    options: &CityOptions,
+) -> Result<City, FormatError> {
+    read(&Input::in_memory(name.as_ref(), bytes), options)
+}
+
+fn read(input: &Input<'_>, options: &CityOptions) -> Result<City, FormatError> {
+    let draft = draft(input, options);
+    let city = draft.and_then(|draft| draft.finish().map_err(unplaceable));
+    city.map_err(|error| error.in_file(input.name()))
+}
+
+fn draft(input: &Input<'_>, options: &CityOptions) -> Result<Draft, FormatError> {
+    let bytes = input.source(&options.limits)?.rest()?;
+    if bytes.is_empty() {
+        return Err(FormatError::file(Fault::Empty));
+    }
+    // Some editors put a byte order mark before the text.
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    match json::kind(text)? {
+        Kind::List => polygon_list::read(text, options),
+        Kind::GeoJson(kind) => geojson::read(text, &kind, options),
+        Kind::CityJson => cityjson::read(text, options),
+        Kind::Unknown => Err(FormatError::file(Fault::UnknownContent { known: KNOWN })),
+    }
+}
+
+fn unplaceable(error: CityError) -> FormatError {
+    FormatError::file(Fault::Description(error.to_string()))
+}
+
+fn wrong(place: impl Into<String>, message: impl Into<String>) -> FormatError {
+    FormatError::file(Fault::InDocument {
+        place: place.into(),
+        message: message.into(),
+    })
+}
