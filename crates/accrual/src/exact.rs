@@ -4,6 +4,7 @@
 //! of another one. So each polygon is turned into a stretch of time, and the shadow of a day is the union of these. The
 //! sun's way is a chain of conic arcs that depart from its true one by less than a second of time.
 
+use arrayvec::ArrayVec;
 use ombra_accel::Level;
 use ombra_geometry::Point3;
 use ombra_sun::Sheet;
@@ -12,6 +13,7 @@ use rayon::prelude::*;
 use crate::kernel::{Room, cover};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
+use crate::tiles::Tiles;
 use crate::way::Way;
 
 /// Measures the shadow of polygons at places, exactly in time.
@@ -44,14 +46,26 @@ impl<'a> Exact<'a> {
     /// should lie near one another: it is quicker then.
     #[must_use]
     pub fn seconds(&self, places: &[Point3]) -> Vec<f64> {
-        let mut seconds = vec![0.0; places.len()];
-        seconds
-            .par_chunks_mut(PLACES)
-            .zip(places.par_chunks(PLACES))
-            .for_each_init(Room::new, |room, (seconds, places)| {
-                self.tile(places, seconds, room);
-            });
-        seconds
+        self.each(&places.chunks(PLACES).collect::<Vec<_>>())
+    }
+
+    /// The same for some of the tiles: place after place, see [`Tiles::range`].
+    #[must_use]
+    pub fn seconds_of(&self, tiles: &Tiles, which: std::ops::Range<usize>) -> Vec<f64> {
+        self.each(&tiles.lists(which))
+    }
+
+    fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
+        let tiles: Vec<ArrayVec<f64, PLACES>> = lists
+            .par_iter()
+            .map_init(Room::new, |room, places| {
+                let mut seconds = ArrayVec::from([0.0; PLACES]);
+                seconds.truncate(places.len());
+                self.tile(places, &mut seconds, room);
+                seconds
+            })
+            .collect();
+        tiles.into_iter().flatten().collect()
     }
 
     fn tile(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) {

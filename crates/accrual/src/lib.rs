@@ -5,12 +5,15 @@
 
 mod cover;
 mod exact;
+mod ground;
 mod kernel;
 mod occluder;
 mod sampled;
 mod tile;
+mod tiles;
 mod way;
 
 pub use exact::Exact;
 pub use occluder::Occluders;
 pub use sampled::Sampled;
+pub use tiles::Tiles;

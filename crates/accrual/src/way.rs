@@ -54,8 +54,14 @@ impl Way {
             "a sheet has 1 to 128 arcs"
         );
         let single = |v: [f64; 3]| v.map(|x| x as f32);
-        let mut knots: Vec<[f32; 3]> = arcs.iter().map(|arc| single(arc.from)).collect();
-        knots.push(single(arcs[arcs.len() - 1].to));
+        // At sunrise the sun may be below the horizon by rounding: walls on the ground where a place is
+        // would not cover it then, for a moment, and no such arc would ever be covered wholly.
+        let knot = |v: [f64; 3]| {
+            let [x, y, z] = single(v);
+            [x, y, z.max(0.0)]
+        };
+        let mut knots: Vec<[f32; 3]> = arcs.iter().map(|arc| knot(arc.from)).collect();
+        knots.push(knot(arcs[arcs.len() - 1].to));
         let bulges: Vec<[f32; 3]> = arcs.iter().map(|arc| single(arc.bulge)).collect();
         let sag = bulges.iter().fold(0.0_f32, |most, [x, y, z]| {
             most.max((x * x + y * y + z * z).sqrt())

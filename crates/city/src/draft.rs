@@ -10,6 +10,7 @@ use crate::crs::Crs;
 use crate::error::CityError;
 use crate::finding::Notes;
 use crate::origin::Origin;
+use crate::parts;
 use crate::repair;
 
 /// What lies farther from the origin than this, in metres, is left out: local metres are no longer
@@ -23,6 +24,9 @@ pub struct Draft {
     pub crs: Crs,
     /// The buildings so far.
     pub buildings: Vec<DraftBuilding>,
+    /// Parts of buildings that a file has beside their outlines, as OpenStreetMap does: each stands
+    /// in place of the outline that it lies in, or for itself if there is none.
+    pub parts: Vec<DraftBuilding>,
     /// Triangles of the ground: coordinates of the map, and z in metres.
     pub terrain: Vec<[[f64; 3]; 3]>,
     /// What was met so far.
@@ -77,6 +81,7 @@ impl Draft {
         Self {
             crs,
             buildings: Vec::new(),
+            parts: Vec::new(),
             terrain: Vec::new(),
             notes: Notes::default(),
         }
@@ -92,17 +97,22 @@ impl Draft {
     /// reference system.
     pub fn finish(mut self) -> Result<City, CityError> {
         let Some(centre) = self.centre() else {
-            for draft in &self.buildings {
+            for draft in self.buildings.iter().chain(&self.parts) {
                 (self.notes).add(&draft.place, "outline without corners on the map: left out");
             }
             let findings = self.notes.into_findings();
             return Err(CityError::NothingThere { findings });
         };
         let origin = Origin::new(self.crs.clone(), centre)?;
-        let mut buildings = Vec::with_capacity(self.buildings.len());
-        for draft in self.buildings {
-            buildings.extend(building(draft, &origin, &mut self.notes));
-        }
+        let [buildings, parts] = [self.buildings, self.parts].map(|drafts| {
+            let placed = drafts.into_iter().filter_map(|draft| {
+                // The first name is for messages about the whole.
+                let place = draft.place.clone();
+                Some((place, building(draft, &origin, &mut self.notes)?))
+            });
+            placed.collect::<Vec<_>>()
+        });
+        let buildings = parts::in_place(buildings, parts, &mut self.notes);
         if buildings.len() >= u32::MAX as usize {
             return Err(CityError::TooMany {
                 what: "buildings",
@@ -129,7 +139,7 @@ impl Draft {
     /// it, as they would the middle of the box around all.
     fn centre(&self) -> Option<[f64; 2]> {
         let of_parts =
-            (self.buildings.iter().flat_map(|b| &b.parts)).filter_map(|part| match part {
+            (self.buildings.iter().chain(&self.parts).flat_map(|b| &b.parts)).filter_map(|part| match part {
                 DraftPart::Footprint { rings, .. } => rings.first()?.first().copied(),
                 DraftPart::Faces(faces) => {
                     let [x, y, _] = *faces.first()?.rings.first()?.first()?;
@@ -158,6 +168,11 @@ fn building(draft: DraftBuilding, origin: &Origin, notes: &mut Notes) -> Option<
     for part in draft.parts {
         match part {
             DraftPart::Footprint { rings, base, top } => {
+                if rings.first().and_then(|ring| ring.first()).is_some_and(|&p| is_far(p, origin)) {
+                    let message = format!("lies over {} km off the others: left out", FARTHEST / 1e3);
+                    notes.add(&draft.place, message);
+                    continue;
+                }
                 let rings = rings.iter().map(|ring| local_ring(ring, origin)).collect();
                 let (base, top) = (base as f32, top as f32);
                 if !(base.is_finite() && top.is_finite() && top > base) {
@@ -192,6 +207,11 @@ fn building(draft: DraftBuilding, origin: &Origin, notes: &mut Notes) -> Option<
         ground,
         ground_elevation: draft.ground_elevation.map(|z| z as f32),
     })
+}
+
+/// Whether a place is on the map and too far off.
+fn is_far(map: [f64; 2], origin: &Origin) -> bool {
+    origin.to_local(map).iter().any(|x| x.abs() > FARTHEST && x.is_finite())
 }
 
 /// In single precision, widened again, so that what is checked is what is kept. NaN for places that

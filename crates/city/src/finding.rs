@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::fmt::{self, Write as _};
 
+use serde::Serialize;
+
 /// Something in a city's file that its user should hear of, though there is a city.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// Where it was met first, such as `feature 12`.
     pub place: String,
@@ -17,8 +19,14 @@ pub struct Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let line = format!("{}: {}", self.place, self.message);
-        // Names and values come from the file: whatever is in them, a finding stays on one line.
-        for c in line.chars() {
+        // Names and values come from the file: whatever is in them, a finding stays on one line that
+        // can be read.
+        const MOST: usize = 300;
+        for (i, c) in line.chars().enumerate() {
+            if i == MOST {
+                f.write_str("...")?;
+                break;
+            }
             if c.is_control() {
                 write!(f, "{}", c.escape_default())?;
             } else {

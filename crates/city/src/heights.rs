@@ -100,6 +100,12 @@ pub const BASES: &[(&str, Unit)] = &[
     ("min_floor", Unit::Levels),
 ];
 
+/// The attribute that counts levels without those in the roof, and the attributes that tell how high
+/// the roof is on top of them, as OpenStreetMap has it. A height in metres has the roof in it.
+pub const WITHOUT_ROOF: &str = "building:levels";
+/// See [`WITHOUT_ROOF`].
+pub const ROOFS: &[(&str, Unit)] = &[("roof:height", Unit::Metres), ("roof:levels", Unit::Levels)];
+
 /// The attributes that tell how high above the sea the ground of a building lies. They raise
 /// nothing: on a flat map the ground beside the building would stay below.
 pub const GROUNDS: &[(&str, Unit)] = &[
@@ -183,12 +189,17 @@ impl Heights {
             Some(name) => {
                 let known = HEIGHTS.iter().find(|h| h.0.eq_ignore_ascii_case(name));
                 let unit = self.unit.or(known.map(|h| h.1)).unwrap_or(Unit::Metres);
-                first(&[(name, unit)], attribute, place, notes, wrong)
+                first_named(&[(name, unit)], attribute, place, notes, wrong)
             }
-            None => first(HEIGHTS, attribute, place, notes, wrong),
+            None => first_named(HEIGHTS, attribute, place, notes, wrong),
         };
         match (found, self.default) {
-            (Some(metres), _) => Some(metres),
+            (Some((name, metres)), _) if name.eq_ignore_ascii_case(WITHOUT_ROOF) => {
+                let negative = |metres: f64| (metres < 0.0).then_some("is negative");
+                let roof = first(ROOFS, attribute, place, notes, negative).unwrap_or(0.0);
+                Some(if metres + roof <= TALLEST { metres + roof } else { metres })
+            }
+            (Some((_, metres)), _) => Some(metres),
             (None, Some(metres)) => {
                 notes.add(place, format!("no usable height: {metres} m assumed"));
                 Some(metres)
@@ -219,6 +230,17 @@ fn first<'a>(
     notes: &mut Notes,
     wrong: impl Fn(f64) -> Option<&'static str>,
 ) -> Option<f64> {
+    first_named(names, attribute, place, notes, wrong).map(|(_, metres)| metres)
+}
+
+/// The same with its name.
+fn first_named<'a, 'n>(
+    names: &[(&'n str, Unit)],
+    attribute: &impl Fn(&str) -> Option<Value<'a>>,
+    place: &str,
+    notes: &mut Notes,
+    wrong: impl Fn(f64) -> Option<&'static str>,
+) -> Option<(&'n str, f64)> {
     for &(name, unit) in names {
         let metres = match attribute(name) {
             None | Some(Value::Null) => continue,
@@ -250,7 +272,7 @@ fn first<'a>(
             Some("is not finite")
         };
         match reason {
-            None => return Some(metres),
+            None => return Some((name, metres)),
             Some(reason) => {
                 let kind = format!("{name} {reason}");
                 notes.add_kind(&kind, place, format!("{kind} ({metres} m)"));
@@ -370,6 +392,28 @@ mod tests {
             let (found, notes) = read(&Heights::default(), &[("height", value)]);
             assert_eq!(found, None);
             assert_eq!(notes, [told, "feature 0: no usable height: left out"]);
+        }
+    }
+
+    #[test]
+    fn levels_of_a_roof_stand_on_the_others_and_metres_are_of_the_whole() {
+        use Value::Text;
+        for (attributes, height) in [
+            (&[("building:levels", Text("4")), ("roof:levels", Text("1"))][..], 15.0),
+            (
+                &[
+                    ("building:levels", Text("4")),
+                    ("roof:height", Text("2.5 m")),
+                    ("roof:levels", Text("1")),
+                ][..],
+                14.5,
+            ),
+            (&[("height", Text("12")), ("roof:height", Text("2.5"))][..], 12.0),
+            (&[("building:levels", Text("4")), ("roof:height", Text("9999"))][..], 12.0),
+        ] {
+            let (told, notes) = read(&Heights::default(), attributes);
+            assert_eq!(told.map(|t| t.height), Some(height), "{attributes:?}");
+            assert!(notes.is_empty());
         }
     }
 

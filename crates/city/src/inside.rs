@@ -1,6 +1,6 @@
 //! Which places lie in a building.
 
-mod grid;
+pub(crate) mod grid;
 
 use ombra_geometry::Point3;
 

@@ -41,7 +41,10 @@ mod finding;
 mod inside;
 mod join;
 mod origin;
+mod parts;
 mod polygon;
+mod procedural;
+mod receiver;
 mod repair;
 mod triangulate;
 
@@ -55,3 +58,5 @@ pub use finding::{Finding, Notes};
 pub use inside::Inside;
 pub use origin::Origin;
 pub use polygon::Polygon;
+pub use procedural::{demo_city, procedural_city};
+pub use receiver::{Grid, GridError, MAX_CELLS};

@@ -17,7 +17,7 @@ pub(crate) const LEAST_EDGE: f64 = 1e-3;
 const LEAST_AREA: f64 = 1e-2;
 /// Outlines with more corners are not repaired: lines can cross in as many places as they have
 /// corners, squared.
-const MOST_REPAIRED: usize = 1000;
+pub(crate) const MOST_REPAIRED: usize = 1000;
 
 /// Outlines and faces with more corners are left out: the time to cut them up may grow with their
 /// square.
@@ -193,6 +193,17 @@ fn repaired(whole: &[Ring], what: &str, place: &str, notes: &mut Notes) -> Vec<P
     }
     let (outer, holes) = (whole[..1].to_vec(), whole[1..].to_vec());
     let shapes = outer.overlay(&holes, OverlayRule::Difference, FillRule::NonZero);
+    let found = rounded(shapes, LEAST_AREA);
+    if found.is_empty() {
+        notes.add(place, format!("{what} and has no area: left out"));
+    } else {
+        notes.add(place, format!("{what}: repaired"));
+    }
+    found
+}
+
+/// Shapes as polygons of single precision, those smaller than `least` square metres left out.
+pub(crate) fn rounded(shapes: Vec<Vec<Ring>>, least: f64) -> Vec<Polygon> {
     let mut found = Vec::new();
     for shape in shapes {
         let mut rings = shape.into_iter().map(|ring| {
@@ -202,7 +213,7 @@ fn repaired(whole: &[Ring], what: &str, place: &str, notes: &mut Notes) -> Vec<P
             ring
         });
         let large =
-            |ring: &Ring| ring.len() >= 3 && signed_area(ring.iter().copied()).abs() >= LEAST_AREA;
+            |ring: &Ring| ring.len() >= 3 && signed_area(ring.iter().copied()).abs() >= least;
         let Some(mut outer) = rings.next().filter(large) else {
             continue;
         };
@@ -213,11 +224,6 @@ fn repaired(whole: &[Ring], what: &str, place: &str, notes: &mut Notes) -> Vec<P
             whole.push(hole);
         }
         found.push(polygon(whole));
-    }
-    if found.is_empty() {
-        notes.add(place, format!("{what} and has no area: left out"));
-    } else {
-        notes.add(place, format!("{what}: repaired"));
     }
     found
 }

@@ -2,7 +2,7 @@
 
 use super::lanes::{Lanes, Mask as _};
 use super::reference::{Side, covered};
-use crate::cover::{Cover, JOIN, Piece};
+use crate::cover::{Cover, JOIN};
 use crate::occluder::Occluder;
 use crate::tile::{PLACES, Tile};
 use crate::way::Way;
@@ -147,11 +147,13 @@ unsafe fn one_arc<P: Lanes>(
             let (enters, leaves) = (a.below(zero), b.below(zero));
             let both = enters.and(leaves);
             let crosses = enters.or(leaves).and_not(both);
-            // Where the sun may cross twice: it is nearer than the bulge, which is on the other side.
+            // Where the sun may cross twice: it turns on the way, nearer than the bulge, which is on the
+            // other side.
             let nearest = a.size().smaller(b.size());
             let far = bulge.size().times(P::splat(0.25)).below(nearest);
             let away = (zero.below(bulge).and_not(both)).or(both.and_not(zero.below(bulge)));
-            let twice = open.and_not(far).and_not(crosses).and_not(away);
+            let bends = b.minus(a).size().below(bulge.size());
+            let twice = bends.and(open).and_not(far).and_not(crosses).and_not(away);
             grazing = grazing.or(twice.and(nearest.below(near[j])));
             open = open.and_not(both.and_not(twice));
             if open.and(crosses).bits() == 0 {
@@ -173,7 +175,7 @@ unsafe fn one_arc<P: Lanes>(
             open = open.and_not(grazing);
         }
         open = open.and(begin.below(end));
-        if open.bits() == 0 {
+        if open.or(grazing).bits() == 0 {
             return;
         }
         // The union: what touches the covered beginning, else the covered end.
@@ -198,14 +200,16 @@ unsafe fn one_arc<P: Lanes>(
             while left != 0 {
                 let place = left.trailing_zeros() as usize;
                 left &= left - 1;
-                cover.pieces.push(Piece {
-                    arc: arc as u8,
-                    place: place as u8,
-                    from: begins[place],
-                    to: ends[place],
-                });
+                cover.add_piece(arc, place, begins[place], ends[place]);
             }
         }
+        if cover.in_pieces >> arc & 1 == 1 {
+            cover.settle(arc);
+        }
+        let (before, after) = (
+            P::load(cover.before[arc].as_ptr()),
+            P::load(cover.after[arc].as_ptr()),
+        );
         let gap = before.below(after.minus(join));
         cover.full |= u128::from(gap.bits() == 0) << arc;
     }

@@ -2,7 +2,7 @@
 
 /// A grid of square cells, each with the boxes that reach into it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     corner: [f32; 2],
     cells_per_metre: f32,
     size: [usize; 2],
@@ -17,7 +17,7 @@ const MOST_CELLS_PER_BOX: u64 = 16;
 
 impl Grid {
     /// A grid over boxes given by their lowest and highest corners.
-    pub(super) fn new(boxes: &[[[f32; 2]; 2]]) -> Self {
+    pub(crate) fn new(boxes: &[[[f32; 2]; 2]]) -> Self {
         let [low, high] = boxes.iter().fold(
             [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]],
             |[low, high], [a, b]| {
@@ -93,7 +93,7 @@ impl Grid {
     }
 
     /// The boxes near a place, in their order; those that hold it are among them.
-    pub(super) fn near(&self, place: [f32; 2]) -> &[u32] {
+    pub(crate) fn near(&self, place: [f32; 2]) -> &[u32] {
         if self.starts.is_empty() || !place.iter().all(|x| x.is_finite()) {
             return &[];
         }

@@ -1,0 +1,42 @@
+//! How high the ground is.
+
+use ombra_accel::{Accel, Mesh, StructureKind, Traversable as _};
+use ombra_city::City;
+use ombra_geometry::{Point3, Ray, TriangleMesh, Vector3};
+
+/// How far above terrain places lie, in metres: terrain is triangles, and a place in the very plane of one would
+/// be on either side by rounding.
+const ABOVE: f32 = 0.02;
+
+/// The ground of a city: its terrain, or flat.
+#[derive(Debug)]
+pub(crate) struct Ground {
+    terrain: Option<Accel<Mesh>>,
+    /// Where there is no terrain.
+    flat: f32,
+}
+
+impl Ground {
+    pub(crate) fn new(city: &City) -> Self {
+        let positions: Vec<Point3> = city.terrain.iter().flatten().copied().collect();
+        let triangles = (0..city.terrain.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
+        let mesh = TriangleMesh::new(positions, triangles.collect());
+        let mesh = mesh.expect("corners are counted as they come");
+        Self {
+            terrain: (!city.terrain.is_empty())
+                .then(|| Accel::build(Mesh::new(mesh), StructureKind::default())),
+            flat: city.ground,
+        }
+    }
+
+    /// The place on the ground: the highest where terrain hangs over.
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> Point3 {
+        let (x, y) = (x as f32, y as f32);
+        let height = self.terrain.as_ref().and_then(|terrain| {
+            let top = terrain.bounds().max.z + 1.0;
+            let down = Ray::new(Point3::new(x, y, top), -Vector3::Z);
+            Some(top - terrain.intersect(&down)?.t + ABOVE)
+        });
+        Point3::new(x, y, height.unwrap_or(self.flat))
+    }
+}

@@ -1,0 +1,5 @@
+//! Where shadow is measured.
+
+mod grid;
+
+pub use grid::{Grid, GridError, MAX_CELLS};
