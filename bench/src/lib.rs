@@ -4,7 +4,8 @@
 //! bit for bit, so that a bench is a test as well; then their times are taken in turns, so that
 //! whatever else the machine does falls on all of them alike.
 //!
-//! [`against`] holds ombra against other tracers; the rest compares its own parts.
+//! [`against`] holds ombra against other tracers, [`shadows`] its exact shadow time against one ray a
+//! minute; the rest compares its own parts.
 //!
 //! To add a contestant, write one function that does the job and name it in the list of its bench.
 //! To add a bench, write a module with a [`Bench`] and name it in [`BENCHES`].
@@ -19,6 +20,7 @@ pub mod random;
 pub mod record;
 pub mod records;
 pub mod scenes;
+pub mod shadows;
 pub mod whitted;
 
 use ombra_accel::StructureKind;

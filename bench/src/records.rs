@@ -7,8 +7,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::machine::Machine;
 
-/// Writes a record as `FOLDER/MACHINE/DATE-BENCH.json` and its tables beside it as `.md`; gives the
-/// two paths.
+/// Writes a record as `FOLDER/MACHINE/DATE-BENCH.json` and its tables beside it as `.md`, under a title;
+/// gives the two paths.
 ///
 /// # Errors
 /// When a file cannot be written.
@@ -16,6 +16,7 @@ pub fn keep(
     folder: &Path,
     machine: &Machine,
     bench: &str,
+    title: &str,
     json: &str,
     tables: &str,
 ) -> io::Result<[PathBuf; 2]> {
@@ -25,10 +26,7 @@ pub fn keep(
     let [json_path, tables_path] =
         ["json", "md"].map(|ending| folder.join(format!("{date}-{bench}.{ending}")));
     fs::write(&json_path, format!("{json}\n"))?;
-    fs::write(
-        &tables_path,
-        format!("# Against other tracers, {date}\n\n{tables}"),
-    )?;
+    fs::write(&tables_path, format!("# {title}, {date}\n\n{tables}"))?;
     Ok([json_path, tables_path])
 }
 
@@ -108,7 +106,15 @@ mod tests {
     fn a_record_is_kept_with_its_tables() {
         let folder = tempfile::tempdir().unwrap();
         let machine = Machine::this();
-        let paths = keep(folder.path(), &machine, "against", "{}", "| a |\n").unwrap();
+        let paths = keep(
+            folder.path(),
+            &machine,
+            "against",
+            "Against other tracers",
+            "{}",
+            "| a |\n",
+        )
+        .unwrap();
         assert!(paths[0].starts_with(folder.path().join(machine_name(&machine))));
         assert_eq!(fs::read_to_string(&paths[0]).unwrap(), "{}\n");
         assert!(fs::read_to_string(&paths[1]).unwrap().ends_with("| a |\n"));

@@ -7,6 +7,7 @@
 use std::fmt::Display;
 
 use ombra_accel::{Geometry, Level, Primitives as _, Traversable as _, TriangleTree};
+use ombra_formats::city::{CityOptions, read_city_bytes};
 use ombra_formats::minray::{parse_contest, read_contest_picture_bytes};
 use ombra_formats::scene::parse_scene;
 use ombra_formats::{
@@ -22,6 +23,7 @@ pub type Target = (&'static str, fn(&[u8]));
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
+    ("city", city),
     ("contest", contest),
     ("contest_picture", contest_picture),
     ("exr", exr),
@@ -46,6 +48,30 @@ fn limits() -> Limits {
         decompressed_bytes: 1 << 20,
         line_bytes: 1 << 16,
         image_pixels: 1 << 16,
+    }
+}
+
+/// Reads a city, of whichever format its content says: GeoJSON, a list of polygons, CityJSON and its
+/// sequences, OpenStreetMap as XML and as PBF.
+pub fn city(data: &[u8]) {
+    let options = CityOptions {
+        limits: limits(),
+        ..CityOptions::default()
+    };
+    let city = match read_city_bytes("a", data, &options) {
+        Ok(city) => city,
+        Err(error) => return check_error(&error),
+    };
+    city.findings.iter().for_each(|finding| check_line(finding));
+    assert!(city.buildings.len() + city.terrain.len() > 0);
+    assert!(city.ground.is_finite());
+    for building in &city.buildings {
+        assert!(!building.parts.is_empty(), "a building has parts");
+        let ranges = building.parts.iter().map(|part| part.range());
+        ranges.for_each(|[low, high]| assert!(low <= high, "{low} {high}"));
+    }
+    for facet in city.facets() {
+        assert!(facet.corners.iter().all(|p| p.is_finite()), "{facet:?}");
     }
 }
 

@@ -14,7 +14,7 @@
 
 /// While this lives, the thread that made it takes denormal numbers for zero and gives zero for them.
 #[derive(Debug)]
-pub(super) struct Flushed {
+pub(crate) struct Flushed {
     #[cfg(target_arch = "x86_64")]
     before: u32,
     /// It belongs to one thread.
@@ -27,7 +27,7 @@ const FLUSH: u32 = 0x8040;
 
 impl Flushed {
     /// From now on. Nothing on processors other than x86-64, for which there is no Embree here.
-    pub(super) fn on() -> Self {
+    pub(crate) fn on() -> Self {
         #[cfg(target_arch = "x86_64")]
         let before = control();
         #[cfg(target_arch = "x86_64")]

@@ -8,15 +8,15 @@
 
 mod answers;
 mod build;
-mod embree;
+pub(crate) mod embree;
 mod engine;
-mod float_mode;
+pub(crate) mod float_mode;
 mod judge;
 mod memory;
 #[cfg(feature = "obvhs")]
 mod obvhs;
 mod own;
-mod processor;
+pub(crate) mod processor;
 mod rays;
 mod report;
 mod speed;

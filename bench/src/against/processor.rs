@@ -1,12 +1,12 @@
 //! Time on the processor, and which of its cores may run.
 
 /// Seconds that this thread has run; wall time where the system does not say.
-pub(super) fn thread_seconds() -> f64 {
+pub(crate) fn thread_seconds() -> f64 {
     system::thread_seconds()
 }
 
 /// Whether [`thread_seconds`] is what it says, and not wall time.
-pub(super) const HAS_THREAD_CLOCK: bool = cfg!(target_os = "linux");
+pub(crate) const HAS_THREAD_CLOCK: bool = cfg!(target_os = "linux");
 
 /// While this lives, all threads of this program share one core, where the system can be told so: a
 /// build by a peer with threads of its own is then one on one thread.

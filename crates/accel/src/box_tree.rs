@@ -123,7 +123,11 @@ mod tests {
                 Some(primitive) => found.push(primitive),
                 None => named(tree, node.child[k].node(), depth + 1, found, boxes),
             }
-            assert!(found[first..].iter().all(|&own| bounds.encloses(&boxes[own])));
+            assert!(
+                found[first..]
+                    .iter()
+                    .all(|&own| bounds.encloses(&boxes[own]))
+            );
         }
     }
 

@@ -138,14 +138,18 @@ impl Draft {
     /// The middle one of all first corners, by each coordinate: a few that have strayed do not move
     /// it, as they would the middle of the box around all.
     fn centre(&self) -> Option<[f64; 2]> {
-        let of_parts =
-            (self.buildings.iter().chain(&self.parts).flat_map(|b| &b.parts)).filter_map(|part| match part {
-                DraftPart::Footprint { rings, .. } => rings.first()?.first().copied(),
-                DraftPart::Faces(faces) => {
-                    let [x, y, _] = *faces.first()?.rings.first()?.first()?;
-                    Some([x, y])
-                }
-            });
+        let of_parts = (self
+            .buildings
+            .iter()
+            .chain(&self.parts)
+            .flat_map(|b| &b.parts))
+        .filter_map(|part| match part {
+            DraftPart::Footprint { rings, .. } => rings.first()?.first().copied(),
+            DraftPart::Faces(faces) => {
+                let [x, y, _] = *faces.first()?.rings.first()?.first()?;
+                Some([x, y])
+            }
+        });
         let of_terrain = self.terrain.iter().map(|&[[x, y, _], ..]| [x, y]);
         let mut places: Vec<[f64; 2]> = of_parts
             .chain(of_terrain)
@@ -168,8 +172,13 @@ fn building(draft: DraftBuilding, origin: &Origin, notes: &mut Notes) -> Option<
     for part in draft.parts {
         match part {
             DraftPart::Footprint { rings, base, top } => {
-                if rings.first().and_then(|ring| ring.first()).is_some_and(|&p| is_far(p, origin)) {
-                    let message = format!("lies over {} km off the others: left out", FARTHEST / 1e3);
+                if rings
+                    .first()
+                    .and_then(|ring| ring.first())
+                    .is_some_and(|&p| is_far(p, origin))
+                {
+                    let message =
+                        format!("lies over {} km off the others: left out", FARTHEST / 1e3);
                     notes.add(&draft.place, message);
                     continue;
                 }
@@ -211,7 +220,10 @@ fn building(draft: DraftBuilding, origin: &Origin, notes: &mut Notes) -> Option<
 
 /// Whether a place is on the map and too far off.
 fn is_far(map: [f64; 2], origin: &Origin) -> bool {
-    origin.to_local(map).iter().any(|x| x.abs() > FARTHEST && x.is_finite())
+    origin
+        .to_local(map)
+        .iter()
+        .any(|x| x.abs() > FARTHEST && x.is_finite())
 }
 
 /// In single precision, widened again, so that what is checked is what is kept. NaN for places that

@@ -197,7 +197,11 @@ impl Heights {
             (Some((name, metres)), _) if name.eq_ignore_ascii_case(WITHOUT_ROOF) => {
                 let negative = |metres: f64| (metres < 0.0).then_some("is negative");
                 let roof = first(ROOFS, attribute, place, notes, negative).unwrap_or(0.0);
-                Some(if metres + roof <= TALLEST { metres + roof } else { metres })
+                Some(if metres + roof <= TALLEST {
+                    metres + roof
+                } else {
+                    metres
+                })
             }
             (Some((_, metres)), _) => Some(metres),
             (None, Some(metres)) => {
@@ -399,7 +403,10 @@ mod tests {
     fn levels_of_a_roof_stand_on_the_others_and_metres_are_of_the_whole() {
         use Value::Text;
         for (attributes, height) in [
-            (&[("building:levels", Text("4")), ("roof:levels", Text("1"))][..], 15.0),
+            (
+                &[("building:levels", Text("4")), ("roof:levels", Text("1"))][..],
+                15.0,
+            ),
             (
                 &[
                     ("building:levels", Text("4")),
@@ -408,8 +415,17 @@ mod tests {
                 ][..],
                 14.5,
             ),
-            (&[("height", Text("12")), ("roof:height", Text("2.5"))][..], 12.0),
-            (&[("building:levels", Text("4")), ("roof:height", Text("9999"))][..], 12.0),
+            (
+                &[("height", Text("12")), ("roof:height", Text("2.5"))][..],
+                12.0,
+            ),
+            (
+                &[
+                    ("building:levels", Text("4")),
+                    ("roof:height", Text("9999")),
+                ][..],
+                12.0,
+            ),
         ] {
             let (told, notes) = read(&Heights::default(), attributes);
             assert_eq!(told.map(|t| t.height), Some(height), "{attributes:?}");

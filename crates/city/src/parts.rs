@@ -79,7 +79,9 @@ impl Outlines {
             let outline = prism(&buildings[owner].1.parts[index])?;
             (outline.outline.contains(place)).then(|| (outline.outline.area(), owner))
         });
-        covering.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, owner)| owner)
+        covering
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, owner)| owner)
     }
 }
 
@@ -134,7 +136,8 @@ fn replace(building: &mut Building, parts: Vec<Part>, place: &str, notes: &mut N
         }
     }
     if left > (1.0 - WHOLE) * all {
-        let message = "has parts that leave some of it uncovered: that keeps the height of the whole";
+        let message =
+            "has parts that leave some of it uncovered: that keeps the height of the whole";
         notes.add(place, message);
         building.parts.extend(rest);
     }
@@ -168,7 +171,12 @@ mod tests {
     use super::*;
 
     fn block([x, y]: [f32; 2], [width, depth]: [f32; 2], height: f32) -> Named {
-        let outer = vec![[x, y], [x + width, y], [x + width, y + depth], [x, y + depth]];
+        let outer = vec![
+            [x, y],
+            [x + width, y],
+            [x + width, y + depth],
+            [x, y + depth],
+        ];
         let outline = Polygon {
             outer,
             holes: Vec::new(),
@@ -193,7 +201,10 @@ mod tests {
             let size = |part: &Part| (part.range()[1], prism(part).unwrap().outline.area());
             building.parts.iter().map(size).collect()
         };
-        (found.iter().map(sizes).collect(), notes.into_findings().len())
+        (
+            found.iter().map(sizes).collect(),
+            notes.into_findings().len(),
+        )
     }
 
     #[test]
@@ -203,7 +214,10 @@ mod tests {
         let tower = block([15.0, 0.2], [5.0, 9.8], 50.0);
         let (found, notes) = run(vec![outline], vec![podium, tower]);
         assert_eq!((found.len(), found[0].len(), notes), (1, 2, 0));
-        assert_eq!(found[0].iter().map(|p| p.0).collect::<Vec<_>>(), [8.0, 50.0]);
+        assert_eq!(
+            found[0].iter().map(|p| p.0).collect::<Vec<_>>(),
+            [8.0, 50.0]
+        );
     }
 
     #[test]
@@ -212,7 +226,10 @@ mod tests {
         let tower = block([15.0, 0.0], [5.0, 10.0], 50.0);
         let beside = block([100.0, 0.0], [5.0, 5.0], 7.0);
         let (found, notes) = run(vec![outline], vec![tower, beside]);
-        assert_eq!(found, [vec![(50.0, 50.0), (12.0, 150.0)], vec![(7.0, 25.0)]]);
+        assert_eq!(
+            found,
+            [vec![(50.0, 50.0), (12.0, 150.0)], vec![(7.0, 25.0)]]
+        );
         assert_eq!(notes, 1);
     }
 

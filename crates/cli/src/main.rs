@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         None => commands::render::default_scene(),
         Some(Command::Render(args)) => commands::render::run(&args),
         Some(Command::Compare(args)) => commands::compare::run(&args),
+        Some(Command::Shadows(args)) => commands::shadows::run(&args),
         Some(Command::Study(args)) => commands::study::run(&args),
         Some(Command::Minray(command)) => commands::minray::run(&command),
         Some(Command::Explain(args)) => commands::explain::run(&args),

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use ombra_city::CityError;
 use ombra_geometry::MeshError;
 
 /// Where in a file a fault lies.
@@ -231,6 +232,9 @@ pub enum Fault {
     /// A mesh that does not hold together.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// A city that cannot be placed on the ground.
+    #[error("{}", one_line(&.0.to_string()))]
+    City(CityError),
     /// Several faults of one file, in its order.
     #[error("{}", several(.faults, *.more))]
     Several {

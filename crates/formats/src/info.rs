@@ -7,6 +7,7 @@ use ombra_geometry::triangle::TriangleTest;
 use ombra_scene::{Material, Object};
 use serde::Serialize;
 
+use crate::city::{CityInfo, city_info, is_city};
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
 use crate::gltf::{self, GltfInfo};
@@ -28,6 +29,8 @@ pub enum FileInfo {
     Scene(SceneInfo),
     /// A glTF or GLB file.
     Gltf(GltfInfo),
+    /// A city.
+    City(CityInfo),
 }
 
 /// What a model holds.
@@ -81,7 +84,7 @@ pub struct MaterialInfo {
     pub triangles: u64,
 }
 
-/// Reads what a model or a picture holds. Models are read as a whole, pictures by their headers.
+/// Reads what a file holds. Models, scenes and cities are read as a whole, pictures by their headers.
 ///
 /// # Errors
 /// As those of [`read_model`], and when the file is of no known kind.
@@ -105,6 +108,9 @@ pub fn inspect(path: impl AsRef<Path>) -> Result<FileInfo, FormatError> {
     if ending(path) == "toml" {
         let file = read_scene(path, TriangleTest::default(), &Limits::default())?;
         return Ok(FileInfo::Scene(scene_info(file)));
+    }
+    if is_city(path)? {
+        return Ok(FileInfo::City(city_info(path)?));
     }
     let info = image_info(path).map_err(|e| e.in_file(path))?;
     Ok(FileInfo::Image(info))

@@ -26,6 +26,7 @@
 
 pub mod city;
 pub mod minray;
+pub mod raster;
 pub mod scene;
 pub mod sha256;
 

@@ -5,6 +5,7 @@
 mod interface;
 mod library;
 mod packets;
+mod shadow;
 
 use std::ffi::{CString, c_int, c_void};
 use std::path::Path;
@@ -13,11 +14,13 @@ use std::sync::atomic::{AtomicIsize, Ordering};
 use std::time::Instant;
 
 use anyhow::ensure;
-use ombra_geometry::{GeometryId, Hit, InstanceId, PrimitiveId, Ray};
+use ombra_geometry::{GeometryId, Hit, InstanceId, PrimitiveId, Ray, TriangleMesh};
 
 use self::interface::{Arguments, COHERENT, Device, INVALID, Interface, RtcHit, RtcRay, RtcRayHit};
 use super::Peer;
 use super::engine::{Built, Engine, Engines, Input, Way};
+
+pub(crate) use self::shadow::ShadowScene;
 
 /// `RTC_DEVICE_PROPERTY_VERSION`.
 const VERSION: c_int = 0;
@@ -26,10 +29,10 @@ const KNOWN: std::ops::Range<isize> = 40_400..50_000;
 
 /// A loaded Embree.
 #[derive(Clone, Debug)]
-pub(super) struct Embree {
+pub(crate) struct Embree {
     interface: Arc<Interface>,
     /// Such as "4.4.0".
-    pub(super) version: String,
+    pub(crate) version: String,
 }
 
 impl Embree {
@@ -37,7 +40,7 @@ impl Embree {
     ///
     /// # Errors
     /// When it is not there, or is not a version that is known here.
-    pub(super) fn load(named: Option<&Path>) -> anyhow::Result<Self> {
+    pub(crate) fn load(named: Option<&Path>) -> anyhow::Result<Self> {
         library::check_machine()?;
         let path = library::find(named)?;
         let interface = Arc::new(Interface::load(&path)?);
@@ -60,13 +63,7 @@ impl Embree {
 
     /// The default build, and the one with spatial splits.
     pub(super) fn engines(&self, mesh: &Input) -> Engines {
-        // Embree may read a vector of four at the last vertex.
-        let vertices = mesh.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
-        let buffers = Arc::new(Buffers {
-            vertices: vertices.chain([0.0]).collect(),
-            vertex_count: mesh.positions().len(),
-            triangles: mesh.triangles().to_vec(),
-        });
+        let buffers = Arc::new(Buffers::of(mesh));
         let engine = |name, quality, ways| -> Box<dyn Engine> {
             Box::new(Contestant {
                 name,
@@ -90,6 +87,18 @@ struct Buffers {
     vertices: Vec<f32>,
     vertex_count: usize,
     triangles: Vec<[u32; 3]>,
+}
+
+impl Buffers {
+    fn of(mesh: &TriangleMesh) -> Self {
+        // Embree may read a vector of four at the last vertex.
+        let vertices = mesh.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
+        Self {
+            vertices: vertices.chain([0.0]).collect(),
+            vertex_count: mesh.positions().len(),
+            triangles: mesh.triangles().to_vec(),
+        }
+    }
 }
 
 /// Bytes that a device holds, and the most that it held.

@@ -1,11 +1,12 @@
 //! `ombra info`: what a file holds.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use anyhow::bail;
-use ombra::formats::{FileInfo, Finding, GltfInfo, ImageInfo, ModelInfo, SceneInfo, inspect};
+use ombra::formats::city::CityInfo;
+use ombra::formats::{FileInfo, GltfInfo, ImageInfo, ModelInfo, SceneInfo, inspect};
 
 use crate::args::InfoArgs;
 
@@ -35,6 +36,7 @@ fn words(info: &FileInfo) -> anyhow::Result<String> {
         FileInfo::Image(info) => image(info),
         FileInfo::Scene(info) => scene(info),
         FileInfo::Gltf(info) => gltf(info),
+        FileInfo::City(info) => city(info),
         other => Ok(serde_json::to_string_pretty(other)? + "\n"),
     }
 }
@@ -147,7 +149,33 @@ fn scene(info: &SceneInfo) -> anyhow::Result<String> {
     Ok(text)
 }
 
-fn notes(text: &mut String, findings: &[Finding]) -> anyhow::Result<()> {
+fn city(info: &CityInfo) -> anyhow::Result<String> {
+    let mut text = String::new();
+    let [east, north] = info.extent;
+    let [longitude, latitude] = info.origin;
+    writeln!(text, "format      {}", info.format)?;
+    writeln!(text, "buildings   {}", info.buildings)?;
+    writeln!(text, "parts       {}", info.parts)?;
+    writeln!(text, "terrain     {} triangles", info.terrain)?;
+    writeln!(text, "facets      {}", info.facets)?;
+    writeln!(text, "extent      {east:.1} m x {north:.1} m (east, north)")?;
+    writeln!(text, "crs         {}", info.crs.escape_debug())?;
+    writeln!(
+        text,
+        "origin      {longitude:.6}, {latitude:.6} (longitude, latitude)"
+    )?;
+    if let Some(heights) = &info.heights {
+        let (min, median, max) = (heights.min, heights.median, heights.max);
+        writeln!(
+            text,
+            "heights     {min:.1} m to {max:.1} m, median {median:.1} m"
+        )?;
+    }
+    notes(&mut text, &info.findings)?;
+    Ok(text)
+}
+
+fn notes(text: &mut String, findings: &[impl Display]) -> anyhow::Result<()> {
     for finding in findings {
         writeln!(text, "note        {finding}")?;
     }

@@ -19,6 +19,7 @@ use ombra::scene::World;
 use ombra::{LoadOptions, Loaded};
 use serde::Serialize;
 
+use super::command;
 use crate::args::{Cli, Command, Device, RenderArgs, Size, Up};
 use crate::interrupt;
 use crate::progress::{Display, rate};
@@ -238,24 +239,6 @@ fn write(
     };
     write_image(&args.output, &image, &metadata)?;
     Ok(())
-}
-
-/// The command as it was typed, with quotes around words that need them.
-fn command() -> String {
-    let quoted = |word: String| {
-        let plain = |c: char| c.is_alphanumeric() || "-_./,=+:".contains(c);
-        if !word.is_empty() && word.chars().all(plain) {
-            word
-        } else {
-            format!("'{}'", word.replace('\'', r"'\''"))
-        }
-    };
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| quoted(word.to_string_lossy().into_owned()));
-    std::iter::once("ombra".to_owned())
-        .chain(words)
-        .collect::<Vec<_>>()
-        .join(" ")
 }
 
 pub(super) fn load(args: &RenderArgs) -> anyhow::Result<Loaded> {

@@ -8,6 +8,7 @@ mod interrupted;
 mod lists;
 mod minray;
 mod pictures;
+mod shadows;
 mod studied;
 
 use std::path::{Path, PathBuf};

@@ -17,6 +17,8 @@ pub(super) enum Kind {
     GeoJson(String),
     /// CityJSON.
     CityJson,
+    /// CityJSON and what belongs to it, one after the other.
+    CityJsonSeq,
     /// None of these.
     Unknown,
 }
@@ -45,6 +47,15 @@ pub(super) fn kind(text: &[u8]) -> Result<Kind, FormatError> {
     match text.trim_ascii_start().first() {
         Some(b'[') => parse::<IgnoredAny>(text).map(|_| Kind::List),
         Some(b'{') => {
+            let mut all = serde_json::Deserializer::from_slice(text).into_iter::<Probe>();
+            let probe = all.next().and_then(Result::ok);
+            let rest = &text[all.byte_offset()..];
+            let kind = probe.and_then(|probe| probe.kind);
+            if kind.as_ref().and_then(Value::as_str) == Some("CityJSON")
+                && !rest.trim_ascii().is_empty()
+            {
+                return Ok(Kind::CityJsonSeq);
+            }
             let probe: Probe = parse(text)?;
             Ok(match probe.kind.as_ref().and_then(Value::as_str) {
                 Some("CityJSON") => Kind::CityJson,
@@ -59,6 +70,17 @@ pub(super) fn kind(text: &[u8]) -> Result<Kind, FormatError> {
 /// A document as a whole.
 pub(super) fn parse<'a, T: Deserialize<'a>>(text: &'a [u8]) -> Result<T, FormatError> {
     serde_json::from_slice(text).map_err(|error| syntax(text, &error))
+}
+
+/// Documents one after the other, each handed on before the next is read.
+pub(super) fn parse_each<'a, T: Deserialize<'a>>(
+    text: &'a [u8],
+    mut each: impl FnMut(T) -> Result<(), FormatError>,
+) -> Result<(), FormatError> {
+    for document in serde_json::Deserializer::from_slice(text).into_iter() {
+        each(document.map_err(|error| syntax(text, &error))?)?;
+    }
+    Ok(())
 }
 
 /// A document whose content goes where `seed` puts it.
@@ -171,6 +193,7 @@ mod tests {
         let of = |text: &str| kind(text.as_bytes()).unwrap();
         assert_eq!(of(" [1]"), Kind::List);
         assert_eq!(of("{\"a\": 1, \"type\": \"CityJSON\"}"), Kind::CityJson);
+        assert_eq!(of("{\"type\": \"CityJSON\"} {"), Kind::CityJsonSeq);
         assert_eq!(
             of("{\"type\": \"Polygon\"}"),
             Kind::GeoJson("Polygon".to_owned())

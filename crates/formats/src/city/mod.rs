@@ -7,7 +7,10 @@
 //! - **A list of polygons**, as the examples of deck.gl have it:
 //!   `[{"height": 30, "polygon": [[lon, lat], …]}, …]`.
 //! - **CityJSON** 1.0, 1.1 and 2.0: buildings and their parts in the highest level of detail up to
-//!   3, and terrain (`TINRelief`). Other objects cast no shadow and are counted.
+//!   3, and terrain (`TINRelief`). Other objects cast no shadow and are counted. The same as a
+//!   sequence (CityJSONSeq), a feature a line.
+//! - **OpenStreetMap** XML (`.osm`) and PBF (`.osm.pbf`): closed ways and multipolygons tagged
+//!   `building` or `building:part`. Parts stand in place of the outline that they lie in.
 //!
 //! Which of them a file is, its content says and not its name; each may be packed with gzip.
 //!
@@ -25,7 +28,9 @@
 mod cityjson;
 mod footprint;
 mod geojson;
+mod info;
 mod json;
+mod osm;
 mod polygon_list;
 #[cfg(test)]
 mod tests;
@@ -38,10 +43,12 @@ use ombra_city::{City, CityError, Crs, Draft};
 use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
+pub use info::{CityInfo, HeightsInfo};
+pub(crate) use info::{city_info, is_city};
 use json::Kind;
 
 /// What can be read, as messages have it.
-const KNOWN: &str = "GeoJSON, CityJSON and lists of polygons";
+const KNOWN: &str = "GeoJSON, CityJSON, OpenStreetMap (XML and PBF) and lists of polygons";
 
 /// How a city is to be read.
 #[derive(Clone, Debug, Default)]
@@ -79,28 +86,70 @@ pub fn read_city_bytes(
 }
 
 fn read(input: &Input<'_>, options: &CityOptions) -> Result<City, FormatError> {
-    let draft = draft(input, options);
-    let city = draft.and_then(|draft| draft.finish().map_err(unplaceable));
-    city.map_err(|error| error.in_file(input.name()))
+    read_named(input, options).map(|(_, city)| city)
 }
 
-fn draft(input: &Input<'_>, options: &CityOptions) -> Result<Draft, FormatError> {
-    let bytes = input.source(&options.limits)?.rest()?;
-    if bytes.is_empty() {
-        return Err(FormatError::file(Fault::Empty));
+/// A city and the name of its format.
+fn read_named(
+    input: &Input<'_>,
+    options: &CityOptions,
+) -> Result<(&'static str, City), FormatError> {
+    let read = || {
+        let bytes = input.source(&options.limits)?.rest()?;
+        if bytes.is_empty() {
+            return Err(FormatError::file(Fault::Empty));
+        }
+        let format = Format::of(&bytes)?;
+        let city = format.read(options)?.finish().map_err(unplaceable)?;
+        Ok((format.name(), city))
+    };
+    read().map_err(|error| error.in_file(input.name()))
+}
+
+/// What a file is, by its content.
+enum Format<'a> {
+    Json(Kind, &'a [u8]),
+    Osm(osm::File<'a>),
+}
+
+impl<'a> Format<'a> {
+    fn of(bytes: &'a [u8]) -> Result<Self, FormatError> {
+        if let Some(file) = osm::File::recognised(bytes) {
+            return Ok(Self::Osm(file));
+        }
+        // Some editors put a byte order mark before the text.
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        match json::kind(text)? {
+            Kind::Unknown => Err(FormatError::file(Fault::UnknownContent { known: KNOWN })),
+            kind => Ok(Self::Json(kind, text)),
+        }
     }
-    // Some editors put a byte order mark before the text.
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-    match json::kind(text)? {
-        Kind::List => polygon_list::read(text, options),
-        Kind::GeoJson(kind) => geojson::read(text, &kind, options),
-        Kind::CityJson => cityjson::read(text, options),
-        Kind::Unknown => Err(FormatError::file(Fault::UnknownContent { known: KNOWN })),
+
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Json(Kind::List, _) => "list of polygons",
+            Self::Json(Kind::GeoJson(_), _) => "GeoJSON",
+            Self::Json(Kind::CityJsonSeq, _) => "CityJSONSeq",
+            Self::Json(Kind::CityJson | Kind::Unknown, _) => "CityJSON",
+            Self::Osm(osm::File::Xml(_)) => "OpenStreetMap XML",
+            Self::Osm(osm::File::Pbf(_)) => "OpenStreetMap PBF",
+        }
+    }
+
+    fn read(&self, options: &CityOptions) -> Result<Draft, FormatError> {
+        match self {
+            Self::Json(Kind::List, text) => polygon_list::read(text, options),
+            Self::Json(Kind::GeoJson(kind), text) => geojson::read(text, kind, options),
+            Self::Json(Kind::CityJson | Kind::CityJsonSeq | Kind::Unknown, text) => {
+                cityjson::read(text, options)
+            }
+            Self::Osm(file) => osm::read(*file, options),
+        }
     }
 }
 
 fn unplaceable(error: CityError) -> FormatError {
-    FormatError::file(Fault::Description(error.to_string()))
+    FormatError::file(Fault::City(error))
 }
 
 fn wrong(place: impl Into<String>, message: impl Into<String>) -> FormatError {

@@ -10,8 +10,13 @@ use super::super::wrong;
 use super::boundaries::Geometry;
 use crate::error::{FormatError, shown};
 
+/// A CityJSON document, or a feature of a sequence, which has neither version nor transform.
 #[derive(Deserialize)]
 pub(super) struct Document {
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    /// The name of a feature.
+    pub(super) id: Option<String>,
     #[serde(default)]
     version: Value,
     transform: Option<Transform>,
@@ -23,8 +28,8 @@ pub(super) struct Document {
     vertices: Vec<[f64; 3]>,
 }
 
-#[derive(Deserialize)]
-struct Transform {
+#[derive(Clone, Copy, Deserialize)]
+pub(super) struct Transform {
     scale: [f64; 3],
     translate: [f64; 3],
 }
@@ -42,8 +47,8 @@ pub(super) struct CityObject {
 }
 
 impl Document {
-    /// The vertices in the coordinates of the map.
-    pub(super) fn vertices(&self) -> Result<Vec<[f64; 3]>, FormatError> {
+    /// What places the vertices on the map; only CityJSON 1.0 can do without.
+    pub(super) fn transform(&self) -> Result<Transform, FormatError> {
         let version = self.version.as_str().unwrap_or_default();
         let major = version.split('.').next();
         if !matches!(major, Some("1" | "2")) {
@@ -53,19 +58,31 @@ impl Document {
             );
             return Err(wrong("version", message));
         }
-        let Some(Transform { scale, translate }) = &self.transform else {
-            if version == "1.0" {
-                return Ok(self.vertices.clone());
+        match self.transform {
+            Some(transform) => Ok(transform),
+            None if version == "1.0" => Ok(Transform {
+                scale: [1.0; 3],
+                translate: [0.0; 3],
+            }),
+            None => {
+                let message = format!(
+                    "is missing; CityJSON {} needs its \"scale\" and \"translate\", without which \
+                     vertices have no place",
+                    shown(version)
+                );
+                Err(wrong("transform", message))
             }
-            let message = format!(
-                "is missing; CityJSON {} needs its \"scale\" and \"translate\", without which \
-                 vertices have no place",
-                shown(version)
-            );
-            return Err(wrong("transform", message));
+        }
+    }
+
+    /// The vertices in the coordinates of the map, z in metres.
+    pub(super) fn placed(&self, transform: &Transform, metres: f64) -> Vec<[f64; 3]> {
+        let Transform { scale, translate } = transform;
+        let placed = |v: &[f64; 3]| {
+            let [x, y, z] = [0, 1, 2].map(|i| v[i] * scale[i] + translate[i]);
+            [x, y, z * metres]
         };
-        let placed = |v: &[f64; 3]| [0, 1, 2].map(|i| v[i] * scale[i] + translate[i]);
-        Ok(self.vertices.iter().map(placed).collect())
+        self.vertices.iter().map(placed).collect()
     }
 
     /// The name of the reference system.

@@ -1,4 +1,6 @@
-//! CityJSON 1.0, 1.1 and 2.0 (<https://www.cityjson.org/specs/>).
+//! CityJSON 1.0, 1.1 and 2.0 (<https://www.cityjson.org/specs/>), and CityJSONSeq
+//! (<https://www.cityjson.org/cityjsonseq/>): a document followed by features that have vertices of
+//! their own and its transform.
 
 mod boundaries;
 mod document;
@@ -8,11 +10,11 @@ use std::collections::HashMap;
 use ombra_city::{Crs, Draft, DraftBuilding, DraftPart, heights};
 
 use super::footprint::attribute;
-use super::json::parse;
+use super::json::parse_each;
 use super::{CityOptions, unplaceable, wrong};
-use crate::error::{FormatError, shown};
+use crate::error::{Fault, FormatError, shown};
 use boundaries::{Geometry, Lod, Shape, faces, triangles};
-use document::{CityObject, Document};
+use document::{CityObject, Document, Transform};
 
 /// The objects that make up buildings as seen from outside.
 const OF_BUILDINGS: [&str; 4] = [
@@ -23,21 +25,48 @@ const OF_BUILDINGS: [&str; 4] = [
 ];
 
 pub(super) fn read(text: &[u8], options: &CityOptions) -> Result<Draft, FormatError> {
-    let document: Document = parse(text)?;
-    let vertices = document.vertices()?;
-    let crs = match (&options.crs, document.reference_system()) {
-        (Some(crs), _) => crs.clone(),
-        (None, Some(name)) => Crs::parse(name).map_err(unplaceable)?,
+    let mut found: Option<(Draft, Transform)> = None;
+    let mut number = 0;
+    parse_each(text, |document: Document| {
+        let Some((draft, transform)) = &mut found else {
+            let transform = document.transform()?;
+            let mut draft = Draft::new(crs(&document, options)?);
+            add(&mut draft, &document, &transform)?;
+            found = Some((draft, transform));
+            return Ok(());
+        };
+        number += 1;
+        if document.kind == "CityJSONFeature" {
+            return add(draft, &document, transform);
+        }
+        let name = document
+            .id
+            .map_or_else(|| number.to_string(), |id| shown(&id));
+        let message = format!(
+            "is a {}; after the first, each is a CityJSONFeature",
+            shown(&document.kind)
+        );
+        Err(wrong(format!("document {name}"), message))
+    })?;
+    found
+        .map(|(draft, _)| draft)
+        .ok_or_else(|| FormatError::file(Fault::Empty))
+}
+
+fn crs(document: &Document, options: &CityOptions) -> Result<Crs, FormatError> {
+    match (&options.crs, document.reference_system()) {
+        (Some(crs), _) => Ok(crs.clone()),
+        (None, Some(name)) => Crs::parse(name).map_err(unplaceable),
         (None, None) => {
             let message = "is missing; name the coordinate reference system of the file";
-            return Err(wrong("metadata.referenceSystem", message));
+            Err(wrong("metadata.referenceSystem", message))
         }
-    };
-    let metres = crs.metres_of_height();
-    let vertices: Vec<[f64; 3]> = vertices
-        .into_iter()
-        .map(|[x, y, z]| [x, y, z * metres])
-        .collect();
+    }
+}
+
+/// Adds the objects of a document.
+fn add(draft: &mut Draft, document: &Document, transform: &Transform) -> Result<(), FormatError> {
+    let vertices = document.placed(transform, draft.crs.metres_of_height());
     let mut reader = Reader {
         objects: document
             .city_objects
@@ -45,19 +74,19 @@ pub(super) fn read(text: &[u8], options: &CityOptions) -> Result<Draft, FormatEr
             .map(|(id, object)| (id.as_str(), object))
             .collect(),
         vertices: &vertices,
-        draft: Draft::new(crs),
+        draft,
         buildings: HashMap::new(),
     };
     for (id, object) in &document.city_objects {
         reader.object(id, object)?;
     }
-    Ok(reader.draft)
+    Ok(())
 }
 
 struct Reader<'a> {
     objects: HashMap<&'a str, &'a CityObject>,
     vertices: &'a [[f64; 3]],
-    draft: Draft,
+    draft: &'a mut Draft,
     /// Where the building of this name is in the draft.
     buildings: HashMap<&'a str, usize>,
 }

@@ -35,6 +35,14 @@ fn files_that_cannot_be_read_say_where_and_why() {
              feature 1: no usable height: left out; feature 2: Point is no polygon: left out; \
              feature 3: outline without corners on the map: left out",
         ),
+        (
+            "missing_nodes.osm",
+            "no building that could be placed: \
+             relation 5: is a member of itself: not followed; \
+             relation 5: has no closed outline: left out; \
+             way 10: 2 nodes are not in the file: left out",
+        ),
+        ("truncated.osm.pbf", "blob 2: unexpected end of file: "),
     ] {
         if let Some(read) = bad(name, &CityOptions::default()) {
             let error = read.unwrap_err();

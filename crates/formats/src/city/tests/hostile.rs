@@ -2,12 +2,13 @@
 
 use proptest::prelude::*;
 
+use super::super::osm::tests::{OSM, pbf};
 use super::super::{CityOptions, read_city_bytes};
-use super::read::{CITYJSON, GEOJSON, LIST};
+use super::read::{CITYJSON, CITYJSONSEQ, GEOJSON, LIST};
 
-/// Half of the changes are to bytes that mean something in JSON and in numbers.
+/// Half of the changes are to bytes that mean something in text and in numbers.
 fn change() -> impl Strategy<Value = (usize, u8)> {
-    let telling = prop::sample::select(&b"0123456789-+.eE[]{}\",:n "[..]);
+    let telling = prop::sample::select(&b"0123456789-+.eE[]{}\",:n </>&="[..]);
     (any::<usize>(), prop_oneof![telling, any::<u8>()])
 }
 
@@ -17,10 +18,12 @@ proptest! {
     #[test]
     fn cities_that_are_changed_and_cut(
         changes in prop::collection::vec(change(), 0..4),
-        cut in 0..3000_usize,
+        cut in 0..6000_usize,
     ) {
-        for text in [GEOJSON, LIST, CITYJSON] {
-            let mut bytes = text.as_bytes().to_vec();
+        let packed = pbf(OSM, false);
+        let texts = [GEOJSON, LIST, CITYJSON, CITYJSONSEQ, OSM].map(str::as_bytes);
+        for whole in texts.into_iter().chain([&packed[..]]) {
+            let mut bytes = whole.to_vec();
             for (at, byte) in &changes {
                 let at = at % bytes.len();
                 bytes[at] = *byte;

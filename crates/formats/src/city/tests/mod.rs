@@ -2,7 +2,8 @@
 
 mod bad;
 mod hostile;
-mod read;
+mod info;
+pub(super) mod read;
 mod real;
 
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use ombra_city::City;
 use super::{CityOptions, read_city_bytes};
 
 /// Data from outside the project; `None`, and a line that says so, where it is not there.
-fn outside_data(name: &str) -> Option<PathBuf> {
+pub(super) fn outside_data(name: &str) -> Option<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     let folder = std::env::var_os("OMBRA_TEST_DATA").map_or(beside, PathBuf::from);
     let path = folder.join(name);
@@ -35,12 +36,12 @@ fn read_with(text: &str, options: &CityOptions) -> Result<City, String> {
     })
 }
 
-fn findings(city: &City) -> Vec<String> {
+pub(super) fn findings(city: &City) -> Vec<String> {
     city.findings.iter().map(ToString::to_string).collect()
 }
 
 /// The z of the highest corner of each building.
-fn tops(city: &City) -> Vec<f32> {
+pub(super) fn tops(city: &City) -> Vec<f32> {
     let top = |building: &ombra_city::Building| {
         let tops = building.parts.iter().map(|part| part.range()[1]);
         tops.fold(f32::MIN, f32::max)

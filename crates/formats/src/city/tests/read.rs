@@ -6,7 +6,7 @@ use ombra_city::{Crs, Part};
 use super::super::CityOptions;
 use super::{findings, read, read_with, tops};
 
-pub(super) const GEOJSON: &str = r#"{"type":"FeatureCollection",
+pub(in super::super) const GEOJSON: &str = r#"{"type":"FeatureCollection",
 "features":[
  {"type":"Feature","id":"a","properties":{"height":"10 m","min_height":2},
   "geometry":{"type":"Polygon","coordinates":[[[0,0],[0.001,0],[0.001,0.001],[0,0.001],[0,0]]]}},
@@ -17,10 +17,10 @@ pub(super) const GEOJSON: &str = r#"{"type":"FeatureCollection",
     [[[0.004,0,5],[0.005,0,4],[0.005,0.001,5],[0.004,0,5]]]]},
    {"type":"LineString","coordinates":[[0,0],[1,1]]}]}}]}"#;
 
-pub(super) const LIST: &str = r#"[{"height":30,"polygon":[[0,0],[0.001,0],[0.001,0.001]]},
+pub(in super::super) const LIST: &str = r#"[{"height":30,"polygon":[[0,0],[0.001,0],[0.001,0.001]]},
  {"height":12.5,"polygon":[[[0.002,0],[0.003,0],[0.003,0.001],[0.002,0]]]},{"height":1}]"#;
 
-pub(super) const CITYJSON: &str = r#"{"type":"CityJSON","version":"1.1",
+pub(in super::super) const CITYJSON: &str = r#"{"type":"CityJSON","version":"1.1",
 "metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/7415"},
 "transform":{"scale":[0.001,0.001,0.001],"translate":[90000,435000,0]},
 "CityObjects":{
@@ -142,6 +142,56 @@ fn cityjson() {
     assert_eq!(facets.iter().filter(|f| f.is_two_sided).count(), 2);
 }
 
+pub(in super::super) const CITYJSONSEQ: &str = r#"{"type":"CityJSON","version":"2.0","CityObjects":{},"vertices":[],
+"metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/7415"},
+"transform":{"scale":[0.01,0.01,0.01],"translate":[90000,435000,0]}}
+{"type":"CityJSONFeature","id":"a","CityObjects":{
+ "a":{"type":"Building","children":["a-0"]},
+ "a-0":{"type":"BuildingPart","parents":["a"],"geometry":[{"type":"Solid","lod":"1","boundaries":[[
+  [[0,2,1]],[[3,4,5]],[[0,1,4,3]],[[1,2,5,4]],[[2,0,3,5]]]]}]}},
+ "vertices":[[0,0,0],[1000,0,0],[0,1000,0],[0,0,700],[1000,0,700],[0,1000,700]]}
+{"type":"CityJSONFeature","id":"b","CityObjects":{
+ "b":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]]]}]}},
+ "vertices":[[2000,0,400],[3000,0,400],[2000,1000,400]]}
+"#;
+
+#[test]
+fn a_sequence_of_cityjson() {
+    let city = read(CITYJSONSEQ).unwrap();
+    let ids: Vec<_> = city
+        .buildings
+        .iter()
+        .filter_map(|b| b.id.as_deref())
+        .collect();
+    assert_eq!(ids, ["a", "b"]);
+    assert_eq!(tops(&city), [7.0, 4.0]);
+    assert_eq!(
+        findings(&city),
+        ["CityObject b: faces enclose no solid: both of their sides cast shadow"]
+    );
+    for (from, to, told) in [
+        ("[3000,0,400]", "", "JSON: "),
+        (
+            "\"type\":\"CityJSONFeature\",\"id\":\"b\"",
+            "\"type\":\"Feature\",\"id\":\"b\"",
+            "document b: is a Feature",
+        ),
+        (
+            "[[0,1,2]]",
+            "[[0,1,3]]",
+            "CityObject b: uses vertex 3, 3 present",
+        ),
+        ("\"version\"", "\"edition\"", "version: null found"),
+        ("\"scale\"", "\"scales\"", "missing field `scale`"),
+    ] {
+        let error = read(&CITYJSONSEQ.replacen(from, to, 1)).unwrap_err();
+        assert!(error.contains(told), "{error}");
+    }
+    let cut = CITYJSONSEQ.len() - 20;
+    let error = read(&CITYJSONSEQ[..cut]).unwrap_err();
+    assert!(error.contains(&format!("byte {cut}: JSON: EOF")), "{error}");
+}
+
 #[test]
 fn what_a_document_lacks_is_named() {
     for (from, to, told) in [
@@ -167,7 +217,8 @@ fn what_a_document_lacks_is_named() {
     }
     for (text, told) in [
         ("", "file is empty"),
-        ("<osm/>", "unknown kind of file"),
+        ("<svg/>", "unknown kind of file"),
+        ("<osm/>", "no building that could be placed"),
         ("{\"type\":\"Topology\"}", "unknown kind of file"),
         (
             "{\"type\":\"FeatureCollection\"}",

@@ -127,3 +127,44 @@ fn rotterdam() {
     assert_eq!((facets.len(), triangles(&facets)), (20_517, 3517));
     assert_eq!(facets.iter().filter(|f| f.is_two_sided).count(), 19_669);
 }
+
+#[test]
+fn chicago() {
+    let Some(city) = real("city/osm/chicago_loop.osm.pbf") else {
+        return;
+    };
+    assert_eq!(
+        findings(&city),
+        [
+            "relation 1870546: no usable height: left out (865 times)",
+            "relation 20048625: begins at 6 m, above its height of 6 m: left out (2 times)",
+            "way 145208575: building:levels is zero (0 m) (6 times)",
+            "way 210671718: lies under the ground: left out (3 times)",
+            "way 1178203072: building:levels \"7-7\" is not a height",
+            "way 1178533812: height is zero (0 m)",
+            "way 24989834: has parts that leave some of it uncovered: that keeps the height of the \
+             whole (28 times)",
+        ]
+    );
+    let parts: usize = city.buildings.iter().map(|b| b.parts.len()).sum();
+    assert_eq!((city.buildings.len(), parts), (937, 1093));
+    assert_eq!(city.facets().len(), 21_938);
+    let tops = tops(&city);
+    assert_eq!(
+        tops.iter().copied().fold(f32::MIN, f32::max),
+        527.0,
+        "Willis Tower"
+    );
+    // The Trump Tower is made of eight parts, up to its mast.
+    let trump = (city.buildings.iter()).find(|b| b.id.as_deref() == Some("way/64594680"));
+    let trump = trump.unwrap();
+    let highest = trump
+        .parts
+        .iter()
+        .map(|p| p.range()[1])
+        .fold(f32::MIN, f32::max);
+    assert_eq!((trump.parts.len(), highest), (8, 423.0));
+    // 98 % of it lie within 2.5 km, as its list says.
+    let [east, north] = extent(&city);
+    assert!(east < 2800.0 && north < 2750.0, "{east} {north}");
+}

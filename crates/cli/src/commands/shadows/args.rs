@@ -1,0 +1,241 @@
+//! What may be asked of `ombra shadows`.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+use ombra::city::Crs;
+use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
+
+/// How many minutes each place on the ground of a city lies in shadow
+///
+/// Over one day or many, within hours by the clock, by the sun, or all that the sun is up. Minutes are exact:
+/// no instants are sampled, it is worked out when each wall begins and ends to cover the sun.
+#[derive(Debug, Args)]
+pub(crate) struct ShadowsArgs {
+    /// A city: GeoJSON, CityJSON, OpenStreetMap (.osm, .osm.pbf), or `demo`, which is built in
+    pub(crate) city: String,
+
+    /// Where to write minutes of shadow as a GeoTIFF (.tif)
+    #[arg(short, long, value_name = "OUT", value_parser = geotiff)]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Where to write a map as a picture (.png)
+    #[arg(long, value_name = "OUT", value_parser = png)]
+    pub(crate) png: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) when: WhenArgs,
+
+    /// How wide a cell of the grid is, in metres: 1, 0.5m, 2 m
+    #[arg(long, value_name = "METRES", default_value = "1", value_parser = metres)]
+    pub(crate) cell: f64,
+
+    /// Only this part of the map: west, south, east, north in the coordinates of the file; all that stands in the file
+    /// throws shadow into it
+    #[arg(long, value_name = "W,S,E,N", value_parser = area, allow_hyphen_values = true)]
+    pub(crate) area: Option<[f64; 4]>,
+
+    /// What the coordinates of the file mean, whatever it says itself: EPSG:25832, a PROJ string, WKT
+    #[arg(long, value_name = "CRS", value_parser = crs)]
+    pub(crate) crs: Option<Crs>,
+
+    /// The attribute that tells how tall a building is [default: the first one that is known]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) height_attribute: Option<String>,
+
+    /// How tall a building is that does not say so, in metres [default: it is left out]
+    #[arg(long, value_name = "METRES", value_parser = metres)]
+    pub(crate) default_height: Option<f64>,
+
+    /// How minutes are found
+    #[arg(long, value_enum, default_value_t = Method::Exact)]
+    pub(crate) method: Method,
+
+    /// Time between samples: 1min, 30s
+    #[arg(long, value_name = "TIME", default_value = "1min", value_parser = duration)]
+    pub(crate) step: f64,
+
+    /// Threads to use; 0 means all
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(crate) threads: u32,
+
+    /// No progress bar, no talk
+    #[arg(long)]
+    pub(crate) quiet: bool,
+
+    /// The numbers on standard output as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// When.
+#[derive(Debug, Args)]
+pub(crate) struct WhenArgs {
+    /// Which days: 2026-12-21, 2026-06-01..2026-08-31, 2026-03, 2026, winter, "winter 2026", or several with commas
+    #[arg(long, value_name = "DAYS", conflicts_with_all = ["from", "season"])]
+    pub(crate) date: Option<String>,
+
+    /// The first day of a period
+    #[arg(long, value_name = "DAY", requires = "to")]
+    pub(crate) from: Option<String>,
+
+    /// The last day of a period
+    #[arg(long, value_name = "DAY", requires = "from")]
+    pub(crate) to: Option<String>,
+
+    /// A season: winter, spring, summer, fall; of the hemisphere that the city is in
+    #[arg(long, value_name = "NAME", conflicts_with = "from", value_parser = said::<Season>)]
+    pub(crate) season: Option<Said<Season>>,
+
+    /// The year of what is named without one [default: this year]
+    #[arg(long, value_name = "YEAR")]
+    pub(crate) year: Option<i16>,
+
+    /// Only some weekdays: mon-fri,sun
+    #[arg(long, value_name = "DAYS", value_parser = said::<Weekdays>)]
+    pub(crate) weekdays: Option<Said<Weekdays>>,
+
+    /// Only some months: jan,mar-may
+    #[arg(long, value_name = "MONTHS", value_parser = said::<Months>)]
+    pub(crate) months: Option<Said<Months>>,
+
+    /// Only these hours by the clock: 09:00-15:30, or several with commas
+    #[arg(long, value_name = "HOURS", value_parser = hours)]
+    pub(crate) hours: Option<Said<Vec<Window>>>,
+
+    /// Only these hours of true solar time: 08:00-16:00, or several with commas
+    #[arg(long, value_name = "HOURS", value_parser = hours)]
+    pub(crate) solar_time: Option<Said<Vec<Window>>>,
+
+    /// Not before so long after sunrise: 90min
+    #[arg(long, value_name = "TIME", default_value = "0min", value_parser = duration)]
+    pub(crate) after_sunrise: f64,
+
+    /// Not after so long before sunset: 90min
+    #[arg(long, value_name = "TIME", default_value = "0min", value_parser = duration)]
+    pub(crate) before_sunset: f64,
+
+    /// Only while the sun stands at least so high, in degrees
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
+    pub(crate) min_altitude: f64,
+
+    /// The time zone of the clock: Europe/Berlin [default: that of the place]
+    #[arg(long, value_name = "ZONE")]
+    pub(crate) time_zone: Option<String>,
+
+    /// Lift the sun by refraction, as air at sea level does
+    #[arg(long)]
+    pub(crate) refraction: bool,
+}
+
+impl WhenArgs {
+    /// Whether it is said which days.
+    pub(crate) const fn names_days(&self) -> bool {
+        self.date.is_some() || self.from.is_some() || self.season.is_some()
+    }
+}
+
+/// What was typed, and what it means.
+#[derive(Clone, Debug)]
+pub(crate) struct Said<T> {
+    pub(crate) text: String,
+    pub(crate) value: T,
+}
+
+fn said<T: FromStr<Err = SunError>>(text: &str) -> Result<Said<T>, String> {
+    let value = text.parse().map_err(|error: SunError| error.to_string())?;
+    let text = text.to_owned();
+    Ok(Said { text, value })
+}
+
+fn hours(text: &str) -> Result<Said<Vec<Window>>, String> {
+    let value = Window::list(text).map_err(|error| error.to_string())?;
+    let text = text.to_owned();
+    Ok(Said { text, value })
+}
+
+/// How minutes are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Method {
+    /// When each wall begins and ends to cover the sun
+    Exact,
+    /// One ray toward the sun every --step
+    Sampled,
+}
+
+impl Method {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Sampled => "sampled",
+        }
+    }
+}
+
+fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let own = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    if own.is_some_and(|own| endings.contains(&own.as_str())) {
+        Ok(path)
+    } else {
+        Err(format!(
+            "a file that ends in .{} is wanted",
+            endings.join(" or .")
+        ))
+    }
+}
+
+fn geotiff(text: &str) -> Result<PathBuf, String> {
+    ends_in(text, &["tif", "tiff"])
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    ends_in(text, &["png"])
+}
+
+fn metres(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('m').trim_end();
+    match number.parse::<f64>() {
+        Ok(metres) if metres > 0.0 && metres.is_finite() => Ok(metres),
+        _ => Err("metres above 0 are wanted, as 1, 0.5m or \"2 m\"".to_owned()),
+    }
+}
+
+fn duration(text: &str) -> Result<f64, String> {
+    parse_duration(text).map_err(|error| error.to_string())
+}
+
+fn crs(text: &str) -> Result<Crs, String> {
+    Crs::parse(text).map_err(|error| error.to_string())
+}
+
+fn area(text: &str) -> Result<[f64; 4], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[west, south, east, north]) if west < east && south < north => Ok([west, south, east, north]),
+        _ => Err("four numbers are wanted: west,south,east,north, with west below east and south below north".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_units_and_ranges() {
+        assert_eq!(metres("1"), Ok(1.0));
+        assert_eq!(metres("0.5m"), Ok(0.5));
+        assert_eq!(metres("2 m"), Ok(2.0));
+        for wrong in ["", "0", "-1", "nan", "inf", "1km"] {
+            assert!(metres(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(area("-1,2,3.5,4"), Ok([-1.0, 2.0, 3.5, 4.0]));
+        for wrong in ["", "1,2,3", "3,2,1,4", "1,2,3,nan", "a,b,c,d"] {
+            assert!(area(wrong).is_err(), "{wrong}");
+        }
+        assert!(geotiff("a.TIF").is_ok() && geotiff("a.png").is_err() && png("a").is_err());
+    }
+}

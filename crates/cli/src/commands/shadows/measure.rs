@@ -1,0 +1,92 @@
+//! The measuring itself, a part at a time, so that it shows how far it is and can be interrupted.
+
+use std::io::{self, IsTerminal as _};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use ombra::accrual::{Exact, Occluders, Sampled, Tiles};
+use ombra::city::City;
+use ombra::pipeline::Cpu;
+
+use super::args::{Method, ShadowsArgs};
+use super::when::When;
+use crate::progress::Jobs;
+
+/// What came out.
+pub(super) struct Measured {
+    /// Minutes by place; NaN for those that were not reached.
+    pub(super) minutes: Vec<f32>,
+    /// How many places were reached.
+    pub(super) done: usize,
+    /// How long it took to make everything ready, and then.
+    pub(super) build_seconds: f64,
+    pub(super) seconds: f64,
+}
+
+/// How long a part should take, in seconds: between parts progress is shown.
+const PART: f64 = 0.1;
+
+pub(super) fn measure(
+    args: &ShadowsArgs,
+    city: &City,
+    when: &When,
+    tiles: &Tiles,
+    cpu: &Cpu,
+    stop: &AtomicBool,
+) -> Measured {
+    let begun = Instant::now();
+    let facets = city.facets();
+    match args.method {
+        Method::Exact => {
+            let occluders = cpu.install(|| Occluders::new(&facets));
+            let exact = cpu.install(|| Exact::new(&occluders, &when.sheets()));
+            let part = |which| cpu.install(|| exact.seconds_of(tiles, which));
+            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+        }
+        Method::Sampled => {
+            let sampled = cpu.install(|| Sampled::new(&facets));
+            let part = |which| {
+                let places = &tiles.places()[tiles.range(which)];
+                cpu.install(|| sampled.seconds(&when.sky, &when.spans, args.step, places))
+            };
+            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+        }
+    }
+}
+
+fn in_parts(
+    args: &ShadowsArgs,
+    tiles: &Tiles,
+    build_seconds: f64,
+    stop: &AtomicBool,
+    part: impl Fn(std::ops::Range<usize>) -> Vec<f64>,
+) -> Measured {
+    let bar = Jobs::new(!args.quiet && io::stderr().is_terminal());
+    let total = tiles.places().len();
+    let mut minutes = Vec::with_capacity(total);
+    let begun = Instant::now();
+    let (mut tile, mut count) = (0, 64);
+    while tile < tiles.len() && !stop.load(Ordering::Relaxed) {
+        let begun = Instant::now();
+        let end = tiles.len().min(tile + count);
+        minutes.extend(
+            part(tile..end)
+                .into_iter()
+                .map(|seconds| (seconds / 60.0) as f32),
+        );
+        tile = end;
+        // So many that a part takes about as long as it should.
+        let faster = PART / begun.elapsed().as_secs_f64().max(1e-6);
+        count = ((count as f64 * faster.clamp(0.5, 4.0)) as usize).max(64);
+        bar.update(minutes.len() as u64, total as u64, "places");
+    }
+    bar.finish();
+    let done = minutes.len();
+    minutes.resize(total, f32::NAN);
+    Measured {
+        minutes,
+        done,
+        build_seconds,
+        seconds: begun.elapsed().as_secs_f64(),
+    }
+}

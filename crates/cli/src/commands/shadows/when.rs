@@ -1,0 +1,131 @@
+//! From what was typed to stretches of time and the way of the sun.
+
+use anyhow::{Context as _, bail};
+use ombra::sun::{
+    Calendar, Days, Hours, Months, Place, Refraction, Sheet, Sky, Span, SunError, Weekdays, Window,
+};
+use rayon::prelude::*;
+
+use super::args::{Said, WhenArgs};
+use super::wrong_usage;
+
+/// The stretches of time that count, and where the sun is meanwhile.
+pub(super) struct When {
+    pub(super) days: usize,
+    pub(super) spans: Vec<Span>,
+    pub(super) sky: Sky,
+    pub(super) zone: String,
+    /// For people: which days and hours.
+    pub(super) text: String,
+}
+
+impl When {
+    pub(super) fn new(args: &WhenArgs, place: Place) -> anyhow::Result<Self> {
+        let zone = match &args.time_zone {
+            Some(name) => jiff::tz::TimeZone::get(name).with_context(|| {
+                format!("--time-zone {name}: no such time zone; one is Europe/Berlin")
+            })?,
+            None => place.time_zone()?,
+        };
+        let this_year = jiff::ZonedDateTime::now()
+            .with_time_zone(zone.clone())
+            .year();
+        let year = args.year.unwrap_or(this_year);
+        let calendar = Calendar::with_zone(&place, year, zone.clone())?;
+        let (days, named) = days(args, &calendar)?;
+        let weekdays = args
+            .weekdays
+            .as_ref()
+            .map_or_else(Weekdays::default, |said| said.value);
+        let months = args
+            .months
+            .as_ref()
+            .map_or_else(Months::default, |said| said.value);
+        let days = days.only(weekdays, months)?;
+        let refraction = if args.refraction {
+            Refraction::SEA
+        } else {
+            Refraction::None
+        };
+        let sky = Sky::new(place, refraction)?;
+        let hours = hours(args).unwrap_or_else(|error| wrong_usage(&error.to_string()));
+        let spans: Vec<Span> = (days.dates().par_iter())
+            .flat_map_iter(|&date| hours.spans(&sky, &zone, date))
+            .collect();
+        if spans.is_empty() {
+            bail!(
+                "the sun is not up in these hours of these days ({named}): there is no shadow to measure"
+            );
+        }
+        Ok(Self {
+            days: days.dates().len(),
+            spans,
+            sky,
+            zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
+            text: text(args, &named),
+        })
+    }
+
+    /// Hours in which the sun counts.
+    pub(super) fn hours(&self) -> f64 {
+        self.spans.iter().map(Span::seconds).sum::<f64>() / 3600.0
+    }
+
+    pub(super) fn sheets(&self) -> Vec<Sheet> {
+        (self.spans.par_iter())
+            .flat_map_iter(|&span| Sheet::cover(&self.sky, span))
+            .collect()
+    }
+}
+
+fn days(args: &WhenArgs, calendar: &Calendar) -> anyhow::Result<(Days, String)> {
+    let (option, named) = match (&args.date, &args.from, &args.to, &args.season) {
+        (Some(date), ..) => ("--date", date.clone()),
+        (_, Some(from), Some(to), _) => ("--from --to", format!("{from}..{to}")),
+        (.., Some(season)) => {
+            let days = Days::season(season.value, calendar.year, calendar)?;
+            return Ok((days, format!("{} {}", season.text, calendar.year)));
+        }
+        _ => wrong_usage(
+            "say which days: --date 2026-12-21, --season winter, or --from DAY --to DAY",
+        ),
+    };
+    match Days::parse(&named, calendar) {
+        Ok(days) => Ok((days, named)),
+        Err(error) => wrong_usage(&format!("{option} {named}: {error}")),
+    }
+}
+
+fn hours(args: &WhenArgs) -> Result<Hours, SunError> {
+    let windows = |said: &Option<Said<Vec<Window>>>| {
+        said.as_ref()
+            .map_or_else(Vec::new, |said| said.value.clone())
+    };
+    Hours::default()
+        .with_windows(&windows(&args.hours), &windows(&args.solar_time))?
+        .with_margins(args.after_sunrise, args.before_sunset)?
+        .with_min_altitude(args.min_altitude)
+}
+
+fn text(args: &WhenArgs, named: &str) -> String {
+    let mut parts = vec![named.replace("..", " to ")];
+    parts.extend(args.weekdays.iter().map(|said| said.text.clone()));
+    parts.extend(args.months.iter().map(|said| said.text.clone()));
+    parts.extend(args.hours.iter().map(|said| said.text.clone()));
+    let solar = |said: &Said<_>| format!("{} true solar time", said.text);
+    parts.extend(args.solar_time.iter().map(solar));
+    let minutes = |seconds: f64| format!("{:.0} min", seconds / 60.0);
+    if args.after_sunrise > 0.0 {
+        parts.push(format!(
+            "from {} after sunrise",
+            minutes(args.after_sunrise)
+        ));
+    }
+    if args.before_sunset > 0.0 {
+        parts.push(format!("to {} before sunset", minutes(args.before_sunset)));
+    }
+    if args.min_altitude > 0.0 {
+        parts.push(format!("sun at least {}° high", args.min_altitude));
+    }
+    parts.join(", ")
+}
