@@ -71,7 +71,7 @@ impl Way {
             0.999 * up * up / (x * x + y * y).max(f32::MIN_POSITIVE)
         });
         let turns: Vec<f32> = knots.iter().map(|&knot| turn(knot)).collect();
-        let sign = direction(&knots);
+        let sign = if sheet.clockwise() { 1.0 } else { -1.0 };
         let start = turns[0];
         let mut relative: Vec<f32> = turns.iter().map(|t| wrapped(sign * (t - start))).collect();
         // What rounds to just before the start has not gone around.
@@ -132,14 +132,6 @@ pub(crate) fn wrapped(turn: f32) -> f32 {
     } else {
         turn
     }
-}
-
-/// 1 if azimuth grows along the knots, −1 if it falls. By areas, so that what is near the zenith, where it
-/// may turn by a half at once, hardly counts.
-fn direction(knots: &[[f32; 3]]) -> f32 {
-    let clockwise = |pair: &[[f32; 3]]| pair[0][1] * pair[1][0] - pair[0][0] * pair[1][1];
-    let area: f32 = knots.windows(2).map(clockwise).sum();
-    if area < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// See [`Way::arcs`].
