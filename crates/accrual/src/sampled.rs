@@ -38,7 +38,8 @@ impl Sampled {
         }
     }
 
-    /// Whether a place lies in shadow at an instant; not if the sun is not up.
+    /// Whether a place lies in shadow at an instant: something stands toward the sun, even where that is
+    /// below the horizon.
     #[must_use]
     pub fn is_in_shadow(&self, sky: &Sky, place: Point3, instant: Instant) -> bool {
         self.accel.occluded(&Ray::new(place, toward(sky, instant)))

@@ -74,8 +74,10 @@ impl Way {
         let sign = if sheet.clockwise() { 1.0 } else { -1.0 };
         let start = turns[0];
         let mut relative: Vec<f32> = turns.iter().map(|t| wrapped(sign * (t - start))).collect();
-        // What rounds to just before the start has not gone around.
-        relative[0] = 0.0;
+        // What rounds to just before the start has not gone around: a sheet turns by 350° at most.
+        for turn in relative.iter_mut().filter(|turn| **turn > 3.95) {
+            *turn = 0.0;
+        }
         for k in 1..relative.len() {
             if relative[k] < relative[k - 1] {
                 relative[k] = relative[k - 1];

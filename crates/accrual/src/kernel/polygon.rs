@@ -155,6 +155,8 @@ unsafe fn one_arc<P: Lanes>(
             let bends = b.minus(a).size().below(bulge.size());
             let twice = bends.and(open).and_not(far).and_not(crosses).and_not(away);
             grazing = grazing.or(twice.and(nearest.below(near[j])));
+            // Where it begins on the plane the root is 0/0.
+            grazing = grazing.or(crosses.and_not(zero.below(a.size())));
             open = open.and_not(both.and_not(twice));
             if open.and(crosses).bits() == 0 {
                 continue;

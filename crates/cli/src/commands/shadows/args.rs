@@ -11,7 +11,7 @@ use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 ///
 /// Over one day or many, within hours by the clock, by the sun, or all that the sun is up. Minutes are exact:
 /// no instants are sampled, it is worked out when each wall begins and ends to cover the sun.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct ShadowsArgs {
     /// A city: GeoJSON, CityJSON, OpenStreetMap (.osm, .osm.pbf), or `demo`, which is built in
     pub(crate) city: String,
@@ -28,7 +28,7 @@ pub(crate) struct ShadowsArgs {
     pub(crate) when: WhenArgs,
 
     /// How wide a cell of the grid is, in metres: 1, 0.5m, 2 m
-    #[arg(long, value_name = "METRES", default_value = "1", value_parser = metres)]
+    #[arg(long, value_name = "METRES", default_value = "1", value_parser = cell)]
     pub(crate) cell: f64,
 
     /// Only this part of the map: west, south, east, north in the coordinates of the file; all that stands in the file
@@ -53,7 +53,7 @@ pub(crate) struct ShadowsArgs {
     pub(crate) method: Method,
 
     /// Time between samples: 1min, 30s
-    #[arg(long, value_name = "TIME", default_value = "1min", value_parser = duration)]
+    #[arg(long, value_name = "TIME", default_value = "1min", value_parser = step)]
     pub(crate) step: f64,
 
     /// Threads to use; 0 means all
@@ -70,7 +70,7 @@ pub(crate) struct ShadowsArgs {
 }
 
 /// When.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct WhenArgs {
     /// Which days: 2026-12-21, 2026-06-01..2026-08-31, 2026-03, 2026, winter, "winter 2026", or several with commas
     #[arg(long, value_name = "DAYS", conflicts_with_all = ["from", "season"])]
@@ -196,6 +196,13 @@ fn png(text: &str) -> Result<PathBuf, String> {
     ends_in(text, &["png"])
 }
 
+fn cell(text: &str) -> Result<f64, String> {
+    match metres(text)? {
+        metres if (0.01..=10_000.0).contains(&metres) => Ok(metres),
+        _ => Err("0.01 to 10000 metres are wanted".to_owned()),
+    }
+}
+
 fn metres(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('m').trim_end();
     match number.parse::<f64>() {
@@ -206,6 +213,13 @@ fn metres(text: &str) -> Result<f64, String> {
 
 fn duration(text: &str) -> Result<f64, String> {
     parse_duration(text).map_err(|error| error.to_string())
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    match duration(text)? {
+        seconds if seconds >= 1.0 => Ok(seconds),
+        _ => Err("a second or more is wanted, as 1min or 30s".to_owned()),
+    }
 }
 
 fn crs(text: &str) -> Result<Crs, String> {

@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Parser as _;
-
 use super::{Session, ShadowsArgs, one};
-use crate::args::{Cli, Command};
 
 /// The days for which the accumulation of shadows of New York was published (Miranda et al., "Shadow Accrual Maps:
 /// Efficient Accumulation of City-Scale Shadows Over Time", TVCG 2019), each from 1.5 h after sunrise to 1.5 h
@@ -17,6 +14,9 @@ const DAYS: [(&str, &str); 3] = [
     ("summer", "06-21"),
 ];
 
+/// Seconds after sunrise and before sunset, unless others are asked for.
+const MARGIN: f64 = 5400.0;
+
 /// The year of these days, unless one is asked for.
 const YEAR: i16 = 2026;
 
@@ -26,17 +26,12 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         let year = args.when.year.unwrap_or(YEAR);
         let date = format!("{year}-{day}");
         let png = PathBuf::from(format!("demo-{name}.png"));
-        let Some(Command::Shadows(mut own)) =
-            Cli::parse_from(["ombra", "shadows", "demo", "--date", &date]).command
-        else {
-            anyhow::bail!("shadows are not what `shadows` measures");
-        };
-        own.when.after_sunrise = 5400.0;
-        own.when.before_sunset = 5400.0;
+        let mut own = args.clone();
+        own.when.date = Some(date);
+        if own.when.after_sunrise == 0.0 && own.when.before_sunset == 0.0 {
+            (own.when.after_sunrise, own.when.before_sunset) = (MARGIN, MARGIN);
+        }
         own.png = Some(png);
-        (own.cell, own.threads) = (args.cell, args.threads);
-        (own.quiet, own.json) = (args.quiet, args.json);
-        (own.method, own.step) = (args.method, args.step);
         let code = one(&own, session)?;
         if code != ExitCode::SUCCESS {
             return Ok(code);

@@ -39,6 +39,9 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     if !is_tour && !args.when.names_days() {
         wrong_usage("say which days: --date 2026-12-21, --season winter, or --from DAY --to DAY");
     }
+    if is_tour && args.json {
+        wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
+    }
     let session = Session {
         cpu: Cpu::with_threads(args.threads as usize).context("cannot start the threads")?,
         stop: interrupt::watch(args.quiet)?,
@@ -73,7 +76,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         say(&format!("{}: {finding}", args.city));
     }
     let place = Place::new(city.origin.latitude(), city.origin.longitude(), 0.0)?;
-    let when = cpu.install(|| When::new(&args.when, place))?;
+    let when = cpu.install(|| When::new(&args.when, place, args.step))?;
     let grid = grid(args, &city)?;
     let tiles = cpu.install(|| Tiles::on_ground(&city, &grid));
     if tiles.is_empty() {
@@ -160,10 +163,10 @@ fn grid(args: &ShadowsArgs, city: &City) -> anyhow::Result<Grid> {
     ];
     let local = around.map(|map| city.origin.to_local(map));
     if local.iter().flatten().any(|x| !x.is_finite()) {
-        bail!(
+        wrong_usage(&format!(
             "--area: the map of the city has no such place; its coordinates are those of {}",
             city.origin.crs().name()
-        );
+        ));
     }
     let least = |axis: usize| local.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
     let most = |axis: usize| {
@@ -172,7 +175,8 @@ fn grid(args: &ShadowsArgs, city: &City) -> anyhow::Result<Grid> {
             .map(|p| p[axis])
             .fold(f64::NEG_INFINITY, f64::max)
     };
-    Grid::within([least(0), least(1)], [most(0), most(1)], args.cell).context("--area")
+    let within = Grid::within([least(0), least(1)], [most(0), most(1)], args.cell);
+    Ok(within.unwrap_or_else(|error| wrong_usage(&format!("--area: {error}"))))
 }
 
 /// Ends the program: what was typed makes no sense.

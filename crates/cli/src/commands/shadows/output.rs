@@ -128,7 +128,8 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
 fn bound(args: &ShadowsArgs) -> String {
     match args.method {
         Method::Exact => {
-            "exact in time: each change of light to 0.1 s, for a sun that is a point".to_owned()
+            "exact in time, a day to 1 s and to 0.05 s in the mean, for a sun that is a point"
+                .to_owned()
         }
         Method::Sampled => format!("one sample every {} s", args.step),
     }

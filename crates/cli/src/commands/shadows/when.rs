@@ -1,6 +1,6 @@
 //! From what was typed to stretches of time and the way of the sun.
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use ombra::sun::{
     Calendar, Days, Hours, Months, Place, Refraction, Sheet, Sky, Span, SunError, Weekdays, Window,
 };
@@ -8,6 +8,9 @@ use rayon::prelude::*;
 
 use super::args::{Said, WhenArgs};
 use super::wrong_usage;
+
+/// More samples would fill the memory.
+const MOST_SAMPLES: f64 = 1e7;
 
 /// The stretches of time that count, and where the sun is meanwhile.
 pub(super) struct When {
@@ -20,18 +23,21 @@ pub(super) struct When {
 }
 
 impl When {
-    pub(super) fn new(args: &WhenArgs, place: Place) -> anyhow::Result<Self> {
+    pub(super) fn new(args: &WhenArgs, place: Place, step: f64) -> anyhow::Result<Self> {
         let zone = match &args.time_zone {
-            Some(name) => jiff::tz::TimeZone::get(name).with_context(|| {
-                format!("--time-zone {name}: no such time zone; one is Europe/Berlin")
-            })?,
+            Some(name) => jiff::tz::TimeZone::get(name).unwrap_or_else(|_| {
+                wrong_usage(&format!(
+                    "--time-zone {name}: no such time zone; one is Europe/Berlin"
+                ))
+            }),
             None => place.time_zone()?,
         };
         let this_year = jiff::ZonedDateTime::now()
             .with_time_zone(zone.clone())
             .year();
         let year = args.year.unwrap_or(this_year);
-        let calendar = Calendar::with_zone(&place, year, zone.clone())?;
+        let calendar = Calendar::with_zone(&place, year, zone.clone())
+            .unwrap_or_else(|error| wrong_usage(&format!("--year {year}: {error}")));
         let (days, named) = days(args, &calendar)?;
         let weekdays = args
             .weekdays
@@ -41,7 +47,8 @@ impl When {
             .months
             .as_ref()
             .map_or_else(Months::default, |said| said.value);
-        let days = days.only(weekdays, months)?;
+        let days = days.only(weekdays, months);
+        let days = days.unwrap_or_else(|error| wrong_usage(&error.to_string()));
         let refraction = if args.refraction {
             Refraction::SEA
         } else {
@@ -52,6 +59,12 @@ impl When {
         let spans: Vec<Span> = (days.dates().par_iter())
             .flat_map_iter(|&date| hours.spans(&sky, &zone, date))
             .collect();
+        let samples = spans.iter().map(Span::seconds).sum::<f64>() / step;
+        if samples > MOST_SAMPLES {
+            wrong_usage(&format!(
+                "--step: {samples:.0} samples are more than {MOST_SAMPLES}: take longer steps or fewer days"
+            ));
+        }
         if spans.is_empty() {
             bail!(
                 "the sun is not up in these hours of these days ({named}): there is no shadow to measure"
