@@ -4,7 +4,6 @@
 //! clock. What does not depend on places is made beforehand, for everybody: structures, the directions
 //! to the sun, the arcs of its way.
 
-mod ground;
 mod jobs;
 mod places;
 mod rays;

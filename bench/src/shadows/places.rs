@@ -1,9 +1,9 @@
 //! Where shadow time is asked for, sixteen places a tile.
 
+use ombra_accrual::Ground;
 use ombra_city::{City, Facet, Inside};
 use ombra_geometry::Point3;
 
-use super::ground::ground;
 use crate::random::Random;
 
 /// Places of a tile, along each of its sides.
@@ -18,6 +18,7 @@ const TRIES: usize = 50;
 /// Square windows on the ground, 1 m from place to place, each about a building picked at random: their
 /// tiles of which no place lies in a building.
 pub(super) fn on_ground(city: &City, inside: &Inside, windows: usize, side: usize) -> Vec<Point3> {
+    let ground = Ground::new(city);
     let mut random = Random::new(11);
     let mut places = Vec::new();
     let mut found = 0;
@@ -26,7 +27,6 @@ pub(super) fn on_ground(city: &City, inside: &Inside, windows: usize, side: usiz
             break;
         };
         let low = middle.map(|x| x.round() - 0.5 * side as f32);
-        let window = ground(city, low, side as f32);
         let before = places.len();
         for tile in 0..(side / SIDE) * (side / SIDE) {
             let corner = [tile % (side / SIDE), tile / (side / SIDE)].map(|k| (SIDE * k) as f32);
@@ -34,7 +34,7 @@ pub(super) fn on_ground(city: &City, inside: &Inside, windows: usize, side: usiz
                 .map(|k| {
                     let x = low[0] + corner[0] + (k % SIDE) as f32 + 0.5;
                     let y = low[1] + corner[1] + (k / SIDE) as f32 + 0.5;
-                    let place = Point3::new(x, y, window.at([x, y])?);
+                    let place = ground.at([x, y].map(f64::from));
                     (!inside.contains(place)).then_some(place)
                 })
                 .collect();

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use ombra_accrual::Sampled;
 use ombra_city::Facet;
-use ombra_geometry::{Point3, TriangleMesh};
 use ombra_sun::Sky;
 
 use super::jobs::Period;
@@ -49,7 +48,7 @@ impl Tracer {
 
     pub(super) fn over(&self, facets: &[Facet]) -> anyhow::Result<Rays> {
         Ok(match &self.embree {
-            Some(embree) => Rays::Embree(embree.shadow_scene(&mesh(facets)?)?),
+            Some(embree) => Rays::Embree(embree.shadow_scene(&Facet::mesh(facets))?),
             None => Rays::Own(Box::new(Sampled::new(facets))),
         })
     }
@@ -57,11 +56,7 @@ impl Tracer {
 
 impl Rays {
     /// Single rays first, then packets.
-    pub(super) fn contestants<'a>(
-        &'a self,
-        sky: &'a Sky,
-        period: &'a Period,
-    ) -> Vec<Contestant<'a>> {
+    pub(super) fn contestants<'a>(&'a self, sky: &Sky, period: &'a Period) -> Vec<Contestant<'a>> {
         let samples = &period.samples;
         match self {
             Self::Embree(scene) => vec![
@@ -73,24 +68,12 @@ impl Rays {
                     scene.packets_of_minutes(places, samples)
                 }),
             ],
-            Self::Own(sampled) => vec![Contestant::new("ombra, sampled", |places| {
-                sampled.seconds(sky, &period.spans, STEP, places)
-            })],
+            Self::Own(sampled) => {
+                let samples = ombra_accrual::Samples::new(sky, &period.spans, STEP);
+                vec![Contestant::new("ombra, sampled", move |places| {
+                    sampled.seconds(&samples, places)
+                })]
+            }
         }
     }
-}
-
-/// All polygons as triangles.
-fn mesh(facets: &[Facet]) -> anyhow::Result<TriangleMesh> {
-    let mut positions: Vec<Point3> = Vec::with_capacity(4 * facets.len());
-    let mut triangles = Vec::with_capacity(2 * facets.len());
-    for facet in facets {
-        let first = positions.len() as u32;
-        positions.extend(facet.corners);
-        triangles.push([first, first + 1, first + 2]);
-        if !facet.is_triangle() {
-            triangles.push([first, first + 2, first + 3]);
-        }
-    }
-    Ok(TriangleMesh::new(positions, triangles)?)
 }

@@ -26,11 +26,9 @@ struct OfSpan {
 impl Samples {
     pub(crate) fn new(sky: &Sky, spans: &[Span]) -> Self {
         let of_span = |span: &Span| {
-            let count = (span.seconds() / STEP).ceil().max(1.0);
-            let seconds = span.seconds() / count;
-            let at = |k: usize| span.start + (k as f64 + 0.5) * seconds;
-            let directions: Vec<[f32; 3]> = (0..count as usize)
-                .map(|k| sky.direction(at(k)).map(|x| x as f32))
+            let (seconds, middles) = span.middles(STEP);
+            let directions: Vec<[f32; 3]> = middles
+                .map(|instant| sky.direction(instant).map(|x| x as f32))
                 .collect();
             let pack = |chunk: &[[f32; 3]]| {
                 let lane = |k: usize| chunk[k.min(chunk.len() - 1)];

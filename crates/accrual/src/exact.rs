@@ -69,7 +69,7 @@ impl<'a> Exact<'a> {
     }
 
     fn tile(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) {
-        let places: Vec<[f32; 3]> = places.iter().map(|p| p.to_array()).collect();
+        let places: ArrayVec<[f32; 3], PLACES> = places.iter().map(|p| p.to_array()).collect();
         if places.iter().flatten().any(|x| !x.is_finite()) {
             // A place that is nowhere has no shadow, and its neighbours are looked at without it.
             for (place, seconds) in places.iter().zip(seconds) {

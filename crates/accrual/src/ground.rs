@@ -10,14 +10,16 @@ const ABOVE: f32 = 0.02;
 
 /// The ground of a city: its terrain, or flat.
 #[derive(Debug)]
-pub(crate) struct Ground {
+pub struct Ground {
     terrain: Option<Accel<Mesh>>,
     /// Where there is no terrain.
     flat: f32,
 }
 
 impl Ground {
-    pub(crate) fn new(city: &City) -> Self {
+    /// Makes ready to answer for a city.
+    #[must_use]
+    pub fn new(city: &City) -> Self {
         let positions: Vec<Point3> = city.terrain.iter().flatten().copied().collect();
         let triangles = (0..city.terrain.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
         let mesh = TriangleMesh::new(positions, triangles.collect());
@@ -29,8 +31,10 @@ impl Ground {
         }
     }
 
-    /// The place on the ground: the highest where terrain hangs over.
-    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> Point3 {
+    /// The place on the ground, local metres: the highest where terrain hangs over, the flat ground where it
+    /// has a hole.
+    #[must_use]
+    pub fn at(&self, [x, y]: [f64; 2]) -> Point3 {
         let (x, y) = (x as f32, y as f32);
         let height = self.terrain.as_ref().and_then(|terrain| {
             let top = terrain.bounds().max.z + 1.0;

@@ -14,6 +14,7 @@ mod tiles;
 mod way;
 
 pub use exact::Exact;
+pub use ground::Ground;
 pub use occluder::Occluders;
-pub use sampled::Sampled;
+pub use sampled::{Sampled, Samples};
 pub use tiles::Tiles;

@@ -16,8 +16,6 @@ pub(crate) struct Occluder {
     pub(crate) normal: [f32; 3],
     /// Whether it throws shadow on both its sides.
     pub(crate) is_two_sided: bool,
-    /// Whose it is.
-    pub(crate) owner: u32,
 }
 
 /// Everything that throws shadow, found by where it is.
@@ -75,7 +73,6 @@ impl Occluder {
             edge,
             normal,
             is_two_sided: facet.is_two_sided,
-            owner: facet.owner,
         })
     }
 

@@ -3,7 +3,7 @@
 
 use ombra_accel::{Accel, Mesh, StructureKind, Traversable as _};
 use ombra_city::Facet;
-use ombra_geometry::{Point3, Ray, TriangleMesh, Vector3};
+use ombra_geometry::{Point3, Ray, Vector3};
 use ombra_sun::{Instant, Sky, Span};
 use rayon::prelude::*;
 
@@ -21,20 +21,8 @@ impl Sampled {
     /// outside of closed solids that is the same.
     #[must_use]
     pub fn new(facets: &[Facet]) -> Self {
-        let mut positions = Vec::with_capacity(4 * facets.len());
-        let mut triangles = Vec::with_capacity(2 * facets.len());
-        for facet in facets {
-            let first = positions.len() as u32;
-            positions.extend(facet.corners);
-            triangles.push([first, first + 1, first + 2]);
-            if !facet.is_triangle() {
-                triangles.push([first, first + 2, first + 3]);
-            }
-        }
-        let mesh =
-            TriangleMesh::new(positions, triangles).expect("corners are counted as they come");
         Self {
-            accel: Accel::build(Mesh::new(mesh), StructureKind::default()),
+            accel: Accel::build(Mesh::new(Facet::mesh(facets)), StructureKind::default()),
         }
     }
 
@@ -45,30 +33,15 @@ impl Sampled {
         self.accel.occluded(&Ray::new(place, toward(sky, instant)))
     }
 
-    /// How many seconds each place lies in shadow, by the middles of equal stretches of `step` seconds
-    /// or a little less.
-    ///
-    /// # Panics
-    /// If `step` is not above 0.
+    /// How many seconds each place lies in shadow.
     #[must_use]
-    pub fn seconds(&self, sky: &Sky, spans: &[Span], step: f64, places: &[Point3]) -> Vec<f64> {
-        assert!(step > 0.0, "a step takes time");
-        let samples: Vec<(Vector3, f64)> = (spans.par_iter())
-            .flat_map_iter(|span| {
-                let count = (span.seconds() / step).ceil().max(1.0);
-                let each = span.seconds() / count;
-                (0..count as usize).map(move |k| {
-                    let instant = span.start + (k as f64 + 0.5) * each;
-                    (toward(sky, instant), each)
-                })
-            })
-            .collect();
+    pub fn seconds(&self, samples: &Samples, places: &[Point3]) -> Vec<f64> {
         let mut seconds = vec![0.0; places.len()];
         (seconds.par_chunks_mut(TOGETHER))
             .zip(places.par_chunks(TOGETHER))
             .for_each(|(seconds, places)| {
                 let mut occluded = vec![false; places.len()];
-                for &(way, each) in &samples {
+                for &(way, each) in &samples.0 {
                     let rays: Vec<Ray> = places.iter().map(|&p| Ray::new(p, way)).collect();
                     self.accel.occluded_many(&rays, &mut occluded);
                     for (seconds, &occluded) in seconds.iter_mut().zip(&occluded) {
@@ -77,6 +50,25 @@ impl Sampled {
                 }
             });
         seconds
+    }
+}
+
+/// Where the sun is at the instants at which rays look, and the seconds that each of them stands for.
+#[derive(Clone, Debug)]
+pub struct Samples(Vec<(Vector3, f64)>);
+
+impl Samples {
+    /// Of the middles of equal parts of each span, of `step` seconds or a little less.
+    ///
+    /// # Panics
+    /// If `step` is not above 0.
+    #[must_use]
+    pub fn new(sky: &Sky, spans: &[Span], step: f64) -> Self {
+        let of_span = |span: &Span| {
+            let (each, middles) = span.middles(step);
+            middles.map(move |instant| (toward(sky, instant), each))
+        };
+        Self(spans.par_iter().flat_map_iter(of_span).collect())
     }
 }
 

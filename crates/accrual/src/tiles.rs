@@ -29,8 +29,8 @@ impl Tiles {
     #[must_use]
     pub fn on_ground(city: &City, grid: &Grid) -> Self {
         let (ground, inside) = (Ground::new(city), Inside::new(city));
-        let across = grid.width().div_ceil(SIDE * SQUARE);
-        let down = grid.height().div_ceil(SIDE * SQUARE);
+        let across = grid.width.div_ceil(SIDE * SQUARE);
+        let down = grid.height.div_ceil(SIDE * SQUARE);
         let squares: Vec<(u32, u32)> = (0..down)
             .flat_map(|row| (0..across).map(move |column| (column, row)))
             .collect();
@@ -59,12 +59,12 @@ impl Tiles {
 
     fn add(&mut self, grid: &Grid, column: u32, row: u32, ground: &Ground, inside: &Inside) {
         let before = self.places.len();
-        for row in row..(row + SIDE).min(grid.height()) {
-            for column in column..(column + SIDE).min(grid.width()) {
+        for row in row..(row + SIDE).min(grid.height) {
+            for column in column..(column + SIDE).min(grid.width) {
                 let place = ground.at(grid.centre(column, row));
                 if !inside.contains(place) {
                     self.places.push(place);
-                    self.cells.push(row * grid.width() + column);
+                    self.cells.push(row * grid.width + column);
                 }
             }
         }

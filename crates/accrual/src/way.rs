@@ -144,8 +144,8 @@ fn by_cell(turns: &[f32]) -> Box<[[u8; 2]; CELLS]> {
     for (cell, arcs) in cells.iter_mut().enumerate() {
         let from = cell as f32 * width - TURN_PAD;
         let to = (cell + 1) as f32 * width + TURN_PAD;
-        let first = (0..count).find(|&k| turns[k + 1] >= from).unwrap_or(count);
-        let last = (0..count).rfind(|&k| turns[k] <= to).unwrap_or(0);
+        let first = turns[1..].partition_point(|&turn| turn < from);
+        let last = turns[..count].partition_point(|&turn| turn <= to).max(1) - 1;
         *arcs = [first as u8, last as u8];
     }
     cells

@@ -1,6 +1,6 @@
 //! What casts shadow.
 
-use ombra_geometry::Point3;
+use ombra_geometry::{Point3, TriangleMesh};
 
 /// A flat convex polygon of three or four corners that casts shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,5 +22,21 @@ impl Facet {
     #[must_use]
     pub fn is_triangle(&self) -> bool {
         self.corners[2] == self.corners[3]
+    }
+
+    /// All of them as triangles, for rays: of four corners two, of three one.
+    #[must_use]
+    pub fn mesh(facets: &[Self]) -> TriangleMesh {
+        let mut positions = Vec::with_capacity(4 * facets.len());
+        let mut triangles = Vec::with_capacity(2 * facets.len());
+        for facet in facets {
+            let first = positions.len() as u32;
+            positions.extend(facet.corners);
+            triangles.push([first, first + 1, first + 2]);
+            if !facet.is_triangle() {
+                triangles.push([first, first + 2, first + 3]);
+            }
+        }
+        TriangleMesh::new(positions, triangles).expect("corners are counted as they come")
     }
 }

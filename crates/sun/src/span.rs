@@ -27,6 +27,19 @@ impl Span {
         self.end - self.start
     }
 
+    /// The middles of equal parts of it, of `step` seconds or a little less; and how long each part is.
+    ///
+    /// # Panics
+    /// If `step` is not above 0.
+    pub fn middles(&self, step: f64) -> (f64, impl Iterator<Item = Instant> + use<>) {
+        assert!(step > 0.0, "a step takes time");
+        let count = (self.seconds() / step).ceil().max(1.0);
+        let each = self.seconds() / count;
+        let start = self.start;
+        let middle = move |k| start + (k as f64 + 0.5) * each;
+        (each, (0..count as usize).map(middle))
+    }
+
     /// The instants of both, if those are a millisecond or more.
     fn common(&self, other: &Self) -> Option<Self> {
         let both = Self::new(self.start.max(other.start), self.end.min(other.end));

@@ -5,7 +5,7 @@
 //! all arcs that stand higher pass over it. Arcs that are covered already are left out before that, so
 //! the test gets stricter as the day fills: what is near comes first.
 
-use ombra_accel::BoxNode;
+use ombra_accel::{BoxChild, BoxNode};
 
 use super::lanes::{Lanes, Mask as _};
 use super::polygon::polygon;
@@ -18,7 +18,7 @@ use crate::way::{TURN_PAD, Way, wrapped};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Waiting {
     /// As in the node above.
-    child: ombra_accel::BoxChild,
+    child: BoxChild,
     arcs: [u8; 2],
 }
 
@@ -39,7 +39,7 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
     let nodes = occluders.tree.nodes();
     // SAFETY: the caller's promise.
     unsafe {
-        let around = Around::<N>::new(tile, way, occluders.reach);
+        let around = Around::<N>::new(tile, occluders.reach);
         let mut node = occluders.tree.root();
         let mut arcs = [0, way.len() - 1];
         'search: loop {
@@ -84,15 +84,13 @@ fn trimmed([first, last]: [usize; 2], full: u128) -> [usize; 2] {
 struct Around<N> {
     least: [N; 3],
     most: [N; 3],
-    start: f32,
-    sign: f32,
 }
 
 impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn new(tile: &Tile, way: &Way, reach: f32) -> Self {
+    unsafe fn new(tile: &Tile, reach: f32) -> Self {
         let [x, y, z] = tile.least;
         let [u, v, w] = tile.most;
         let size = x.abs().max(y.abs()).max(z.abs());
@@ -104,8 +102,6 @@ impl<N: Lanes> Around<N> {
             Self {
                 least: [N::splat(x - pad), N::splat(y - pad), N::splat(z - pad)],
                 most: [N::splat(u + pad), N::splat(v + pad), N::splat(w + pad)],
-                start: way.start,
-                sign: way.sign,
             }
         }
     }
@@ -171,11 +167,11 @@ impl<N: Lanes> Around<N> {
             let mut own = arcs;
             if within >> k & 1 == 0 {
                 let (mut a, mut b) = (from[k], to[k]);
-                if self.sign < 0.0 {
+                if way.sign < 0.0 {
                     (a, b) = (b, a);
                 }
-                let a = wrapped(self.sign * (a - self.start) - TURN_PAD);
-                let b = wrapped(self.sign * (b - self.start) + TURN_PAD);
+                let a = wrapped(way.sign * (a - way.start) - TURN_PAD);
+                let b = wrapped(way.sign * (b - way.start) + TURN_PAD);
                 let [first, last] = way.between(a, b);
                 own = [arcs[0].max(first), arcs[1].min(last)];
                 if own[0] > own[1] {

@@ -1,6 +1,6 @@
 //! Against rays, one a second, with every change of light found to a millisecond.
 
-use ombra_accrual::{Exact, Occluders, Sampled};
+use ombra_accrual::{Exact, Occluders, Sampled, Samples};
 use ombra_geometry::Point3;
 use ombra_sun::{Instant, Sky, Span};
 
@@ -77,7 +77,7 @@ fn samples_come_nearer_the_more_there_are() {
     let exact = Exact::new(&Occluders::new(&facets), &sheets(&sky, &spans)).seconds(&places);
     let rays = Sampled::new(&facets);
     let mean_error = |step| {
-        let found = rays.seconds(&sky, &spans, step, &places);
+        let found = rays.seconds(&Samples::new(&sky, &spans, step), &places);
         let errors = exact.iter().zip(found).map(|(a, b)| (a - b).abs());
         errors.sum::<f64>() / places.len() as f64
     };

@@ -2,7 +2,7 @@
 
 use ombra_geometry::Aabb;
 
-use crate::City;
+use crate::Facet;
 
 /// The most cells of a grid: 268 million.
 pub const MAX_CELLS: u64 = 1 << 28;
@@ -11,10 +11,14 @@ pub const MAX_CELLS: u64 = 1 << 28;
 /// cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    corner: [f64; 2],
-    cell: f64,
-    width: u32,
-    height: u32,
+    /// The south-west corner of the south-west cell: metres east and north of the origin.
+    pub corner: [f64; 2],
+    /// Length of a cell's side in metres, more than 0.
+    pub cell: f64,
+    /// Cells in a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
 }
 
 /// Why there is no such grid.
@@ -45,15 +49,13 @@ pub enum GridError {
 }
 
 impl Grid {
-    /// Over the buildings of a city and its terrain; cells that are cut by the edge of that are whole.
+    /// Over all that casts shadow; cells that are cut by the edge of that are whole.
     ///
     /// # Errors
     /// See [`within`](Self::within).
-    pub fn over(city: &City, cell: f64) -> Result<Self, GridError> {
-        let mut bounds = Aabb::EMPTY;
-        for facet in city.facets() {
-            bounds = bounds.union(Aabb::around(facet.corners));
-        }
+    pub fn over(facets: &[Facet], cell: f64) -> Result<Self, GridError> {
+        let boxes = facets.iter().map(|facet| Aabb::around(facet.corners));
+        let bounds = boxes.fold(Aabb::EMPTY, Aabb::union);
         if bounds.is_empty() {
             return Err(GridError::Empty {
                 from: [0.0; 2],
@@ -91,28 +93,11 @@ impl Grid {
         })
     }
 
-    /// The south-western corner, local metres.
+    /// The north-west corner of the north-west cell: metres east and north of the origin.
     #[must_use]
-    pub const fn corner(&self) -> [f64; 2] {
-        self.corner
-    }
-
-    /// How wide and high a cell is, metres.
-    #[must_use]
-    pub const fn cell(&self) -> f64 {
-        self.cell
-    }
-
-    /// How many cells from west to east.
-    #[must_use]
-    pub const fn width(&self) -> u32 {
-        self.width
-    }
-
-    /// How many cells from north to south.
-    #[must_use]
-    pub const fn height(&self) -> u32 {
-        self.height
+    pub fn north_west(&self) -> [f64; 2] {
+        let [west, south] = self.corner;
+        [west, south + f64::from(self.height) * self.cell]
     }
 
     /// How many cells.
@@ -139,10 +124,7 @@ mod tests {
     #[test]
     fn cells_lie_on_multiples_of_their_size() {
         let grid = Grid::within([-1.2, 3.9], [2.0, 6.1], 0.5).unwrap();
-        assert_eq!(
-            (grid.corner(), grid.width(), grid.height()),
-            ([-1.5, 3.5], 7, 6)
-        );
+        assert_eq!((grid.corner, grid.width, grid.height), ([-1.5, 3.5], 7, 6));
         assert_eq!(grid.centre(0, 5), [-1.25, 3.75]);
         assert_eq!(grid.centre(6, 0), [1.75, 6.25]);
         assert_eq!(grid.count(), 42);

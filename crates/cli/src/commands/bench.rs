@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Context as _;
-use clap::error::ErrorKind;
-use clap::{Args, CommandFactory as _};
+use clap::Args;
 use ombra::accel::StructureKind;
 use ombra::render::MAX_SIDE;
 use ombra_bench::against::{self, Options, Peer};
 use ombra_bench::machine::Machine;
 use ombra_bench::{BENCHES, Settings, records, shadows};
 
-use crate::args::{Accel, Cli, accel, named};
+use super::{Talk, wrong_usage};
+use crate::args::{Accel, accel, named};
 
 /// Without --against: parts of ombra that do the same job, their answers compared first, then their
 /// times.
@@ -140,7 +140,7 @@ fn peers(args: &BenchArgs) -> anyhow::Result<String> {
         embree: args.embree.clone(),
         ..base
     };
-    let report = against::run(&options, &mut |line| talk(args, line))?;
+    let report = against::run(&options, &mut |line| talk(args).say(line))?;
     let (json, tables) = (serde_json::to_string_pretty(&report)?, report.tables());
     let title = ("against", "Against other tracers");
     shown(args, &report.machine, title, json, tables)
@@ -164,18 +164,14 @@ fn shadow_time(args: &BenchArgs) -> anyhow::Result<String> {
         embree: args.embree.clone(),
         ..base
     };
-    let report = shadows::run(&options, &mut |line| talk(args, line))?;
+    let report = shadows::run(&options, &mut |line| talk(args).say(line))?;
     let (json, tables) = (serde_json::to_string_pretty(&report)?, report.tables());
     let title = ("shadows", "Exact shadow time against rays");
     shown(args, &report.machine, title, json, tables)
 }
 
-/// A line for whoever waits.
-fn talk(args: &BenchArgs, line: &str) {
-    if !args.quiet {
-        // Nobody is left to tell if this fails.
-        let _ = writeln!(io::stderr(), "{line}");
-    }
+const fn talk(args: &BenchArgs) -> Talk {
+    Talk { quiet: args.quiet }
 }
 
 /// What goes to the output; kept as a record first, if it is to be.
@@ -190,7 +186,7 @@ fn shown(
         let paths = records::keep(folder, machine, name, title, &json, &tables)
             .with_context(|| format!("cannot write to {}", folder.display()))?;
         for path in paths {
-            talk(args, &format!("wrote {}", path.display()));
+            talk(args).say(&format!("wrote {}", path.display()));
         }
     }
     Ok(if args.json { json + "\n" } else { tables })
@@ -200,10 +196,10 @@ fn shown(
 fn own_parts(args: &BenchArgs) -> anyhow::Result<String> {
     for name in &args.benches {
         if BENCHES.iter().all(|bench| bench.name != name) {
-            let message = format!("there is no bench \"{name}\"; --list names them");
-            Cli::command()
-                .error(ErrorKind::InvalidValue, message)
-                .exit();
+            wrong_usage(
+                "bench",
+                &format!("there is no bench \"{name}\"; --list names them"),
+            );
         }
     }
     let base = Settings::default();

@@ -19,7 +19,7 @@ use ombra::scene::World;
 use ombra::{LoadOptions, Loaded};
 use serde::Serialize;
 
-use super::command;
+use super::{Talk, command};
 use crate::args::{Cli, Command, Device, RenderArgs, Size, Up};
 use crate::interrupt;
 use crate::progress::{Display, rate};
@@ -323,19 +323,5 @@ const fn up(axis: Up) -> Vector3 {
         Up::X => Vector3::X,
         Up::Y => Vector3::Y,
         Up::Z => Vector3::Z,
-    }
-}
-
-/// Says things on standard error, unless asked not to.
-pub(super) struct Talk {
-    pub(super) quiet: bool,
-}
-
-impl Talk {
-    pub(super) fn say(&self, text: &str) {
-        if !self.quiet {
-            // Nobody is left to tell if this fails.
-            let _ = writeln!(io::stderr(), "{text}");
-        }
     }
 }

@@ -42,22 +42,27 @@ struct Probe {
     kind: Option<Value>,
 }
 
+impl Probe {
+    fn kind(&self) -> Option<&str> {
+        self.kind.as_ref()?.as_str()
+    }
+}
+
 /// Goes through the whole document once, keeping nothing of it.
 pub(super) fn kind(text: &[u8]) -> Result<Kind, FormatError> {
     match text.trim_ascii_start().first() {
         Some(b'[') => parse::<IgnoredAny>(text).map(|_| Kind::List),
         Some(b'{') => {
             let mut all = serde_json::Deserializer::from_slice(text).into_iter::<Probe>();
-            let probe = all.next().and_then(Result::ok);
-            let rest = &text[all.byte_offset()..];
-            let kind = probe.and_then(|probe| probe.kind);
-            if kind.as_ref().and_then(Value::as_str) == Some("CityJSON")
-                && !rest.trim_ascii().is_empty()
-            {
-                return Ok(Kind::CityJsonSeq);
-            }
-            let probe: Probe = parse(text)?;
-            Ok(match probe.kind.as_ref().and_then(Value::as_str) {
+            let first = all.next().and_then(Result::ok);
+            let ends_there = text[all.byte_offset()..].trim_ascii().is_empty();
+            let probe = match first {
+                Some(probe) if ends_there => probe,
+                Some(probe) if probe.kind() == Some("CityJSON") => return Ok(Kind::CityJsonSeq),
+                // Again, for what is wrong with it.
+                _ => parse(text)?,
+            };
+            Ok(match probe.kind() {
                 Some("CityJSON") => Kind::CityJson,
                 Some(kind) if GEOJSON.contains(&kind) => Kind::GeoJson(kind.to_owned()),
                 _ => Kind::Unknown,
@@ -136,15 +141,9 @@ fn syntax(text: &[u8], error: &serde_json::Error) -> FormatError {
         let is_part = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'+' | b'-' | b'.');
         let length = rest.iter().take_while(|b| is_part(b)).count().min(40);
         let word = String::from_utf8_lossy(&rest[..length]);
-        if word
-            .to_ascii_lowercase()
-            .trim_start_matches(['-', '+'])
-            .starts_with("nan")
-            || word
-                .to_ascii_lowercase()
-                .trim_start_matches(['-', '+'])
-                .starts_with("inf")
-        {
+        let lower = word.to_ascii_lowercase();
+        let name = lower.trim_start_matches(['-', '+']);
+        if name.starts_with("nan") || name.starts_with("inf") {
             message += &format!(": {word} is not JSON; a number, or null for none, would be right");
         } else if !word.is_empty() {
             message += &format!(": {word:?} found");

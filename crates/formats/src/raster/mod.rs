@@ -2,8 +2,8 @@
 //! for a report ([`map_picture`]).
 //!
 //! ```
-//! use ombra_city::{Crs, Origin};
-//! use ombra_formats::raster::{Grid, MapStyle, Raster, Unit, map_picture, write_geotiff};
+//! use ombra_city::{Crs, Grid, Origin};
+//! use ombra_formats::raster::{MapStyle, Raster, Unit, map_picture, write_geotiff};
 //!
 //! let origin = Origin::new(Crs::wgs84(), [4.36, 52.01])?;
 //! let grid = Grid { corner: [-10.0, -10.0], cell: 10.0, width: 2, height: 2 };
@@ -25,34 +25,12 @@ mod cells;
 mod geotiff;
 mod map;
 
-use ombra_city::Origin;
+use ombra_city::{Grid, Origin};
 
 pub use geotiff::write_geotiff;
 pub use map::{MapStyle, map_picture};
 
 use cells::Cells;
-
-/// Square cells in rows, in the local metres of a city.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
-    /// The south-west corner of the south-west cell: metres east and north of the origin.
-    pub corner: [f64; 2],
-    /// Length of a cell's side in metres, more than 0.
-    pub cell: f64,
-    /// Cells in a row, at least 1.
-    pub width: u32,
-    /// Rows, at least 1.
-    pub height: u32,
-}
-
-impl Grid {
-    /// The north-west corner of the north-west cell: metres east and north of the origin.
-    #[must_use]
-    pub fn north_west(&self) -> [f64; 2] {
-        let [west, south] = self.corner;
-        [west, south + f64::from(self.height) * self.cell]
-    }
-}
 
 /// What the numbers of a raster count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

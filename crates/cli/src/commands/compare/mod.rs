@@ -19,7 +19,8 @@ use ombra::render::raster::notice;
 use ombra::render::{Film, Watch};
 use ombra::scene::{Rgb, World};
 
-use super::render::{Talk, load, settings};
+use super::Talk;
+use super::render::{load, settings};
 use crate::args::CompareArgs;
 use crate::interrupt;
 use crate::progress::Display;

@@ -18,8 +18,6 @@ use std::cell::RefCell;
 use std::io::{self, BufWriter, Write as _};
 use std::process::ExitCode;
 
-use clap::CommandFactory as _;
-use clap::error::ErrorKind;
 use ombra::formats::{can_write_whole, write_whole};
 use ombra::geometry::Vector3;
 use ombra::pipeline::Cpu;
@@ -28,7 +26,7 @@ use ombra::render::explain::{ExplainError, Explainer, SampleTree};
 use ombra::scene::{Camera, Scene, World};
 use ombra::{LoadOptions, Loaded};
 
-use crate::args::{Cli, Size, Up};
+use crate::args::{Size, Up};
 pub(crate) use args::ExplainArgs;
 use document::{FORMAT, Heading, Sample};
 use drawing::Drawing;
@@ -266,14 +264,7 @@ impl Stage {
 /// Ends with exit code 2 and the usage of this command, as for any other word that cannot be
 /// understood.
 pub(crate) fn wrong_usage(message: &str) -> ! {
-    let mut cli = Cli::command();
-    // So that commands know their whole names.
-    cli.build();
-    let explain = cli.find_subcommand("explain").cloned();
-    explain
-        .unwrap_or(cli)
-        .error(ErrorKind::ValueValidation, message)
-        .exit()
+    crate::commands::wrong_usage("explain", message)
 }
 
 /// A pixel or a sample that is not there is wrong usage; everything else is a failure.

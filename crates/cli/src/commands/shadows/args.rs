@@ -143,16 +143,20 @@ pub(crate) struct Said<T> {
     pub(crate) value: T,
 }
 
+impl<T> Said<T> {
+    fn new(text: &str, value: Result<T, SunError>) -> Result<Self, String> {
+        let value = value.map_err(|error| error.to_string())?;
+        let text = text.to_owned();
+        Ok(Self { text, value })
+    }
+}
+
 fn said<T: FromStr<Err = SunError>>(text: &str) -> Result<Said<T>, String> {
-    let value = text.parse().map_err(|error: SunError| error.to_string())?;
-    let text = text.to_owned();
-    Ok(Said { text, value })
+    Said::new(text, text.parse())
 }
 
 fn hours(text: &str) -> Result<Said<Vec<Window>>, String> {
-    let value = Window::list(text).map_err(|error| error.to_string())?;
-    let text = text.to_owned();
-    Ok(Said { text, value })
+    Said::new(text, Window::list(text))
 }
 
 /// How minutes are found.

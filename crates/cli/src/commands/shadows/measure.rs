@@ -4,8 +4,8 @@ use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use ombra::accrual::{Exact, Occluders, Sampled, Tiles};
-use ombra::city::City;
+use ombra::accrual::{Exact, Occluders, Sampled, Samples, Tiles};
+use ombra::city::Facet;
 use ombra::pipeline::Cpu;
 
 use super::args::{Method, ShadowsArgs};
@@ -28,26 +28,26 @@ const PART: f64 = 0.1;
 
 pub(super) fn measure(
     args: &ShadowsArgs,
-    city: &City,
+    facets: &[Facet],
     when: &When,
     tiles: &Tiles,
     cpu: &Cpu,
     stop: &AtomicBool,
 ) -> Measured {
     let begun = Instant::now();
-    let facets = city.facets();
     match args.method {
         Method::Exact => {
-            let occluders = cpu.install(|| Occluders::new(&facets));
+            let occluders = cpu.install(|| Occluders::new(facets));
             let exact = cpu.install(|| Exact::new(&occluders, &when.sheets()));
             let part = |which| cpu.install(|| exact.seconds_of(tiles, which));
             in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
         }
         Method::Sampled => {
-            let sampled = cpu.install(|| Sampled::new(&facets));
+            let sampled = cpu.install(|| Sampled::new(facets));
+            let samples = cpu.install(|| Samples::new(&when.sky, &when.spans, args.step));
             let part = |which| {
                 let places = &tiles.places()[tiles.range(which)];
-                cpu.install(|| sampled.seconds(&when.sky, &when.spans, args.step, places))
+                cpu.install(|| sampled.seconds(&samples, places))
             };
             in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
         }

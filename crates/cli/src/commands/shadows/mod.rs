@@ -13,10 +13,9 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use clap::CommandFactory as _;
-use clap::error::ErrorKind;
 use ombra::accrual::Tiles;
-use ombra::city::{City, Grid};
+use ombra::city::{City, Facet, Grid};
+use ombra::formats::can_write_whole;
 use ombra::formats::city::{CityOptions, read_city};
 use ombra::pipeline::Cpu;
 use ombra::sun::Place;
@@ -26,7 +25,7 @@ use measure::{Measured, measure};
 use output::{Statistics, summary};
 use when::When;
 
-use crate::args::Cli;
+use super::Talk;
 use crate::interrupt;
 
 /// The city that is built in.
@@ -37,7 +36,7 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     let asks_for_files = args.output.is_some() || args.png.is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days();
     if !is_tour && !args.when.names_days() {
-        wrong_usage("say which days: --date 2026-12-21, --season winter, or --from DAY --to DAY");
+        no_days();
     }
     if is_tour && args.json {
         wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
@@ -62,22 +61,21 @@ struct Session {
 /// One map.
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
-    let say = |text: &str| {
-        if !args.quiet {
-            // Nobody is left to tell if this fails.
-            let _ = writeln!(io::stderr(), "{text}");
-        }
-    };
-    output::begin(args)?;
+    let talk = Talk { quiet: args.quiet };
+    for path in [&args.output, &args.png].into_iter().flatten() {
+        // What would fail in the end fails at once.
+        can_write_whole(path)?;
+    }
 
     let begun = Instant::now();
     let city = cpu.install(|| load(args))?;
     for finding in &city.findings {
-        say(&format!("{}: {finding}", args.city));
+        talk.say(&format!("{}: {finding}", args.city));
     }
     let place = Place::new(city.origin.latitude(), city.origin.longitude(), 0.0)?;
     let when = cpu.install(|| When::new(&args.when, place, args.step))?;
-    let grid = grid(args, &city)?;
+    let facets = city.facets();
+    let grid = grid(args, &city, &facets)?;
     let tiles = cpu.install(|| Tiles::on_ground(&city, &grid));
     if tiles.is_empty() {
         bail!(
@@ -86,13 +84,13 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         );
     }
     let load_seconds = begun.elapsed().as_secs_f64();
-    say(&format!(
+    talk.say(&format!(
         "{}: {} buildings, {} x {} cells of {} m, {} outside; {} day{}, {:.1} h of sun ({})",
         args.city,
         city.buildings.len(),
-        grid.width(),
-        grid.height(),
-        grid.cell(),
+        grid.width,
+        grid.height,
+        grid.cell,
         tiles.places().len(),
         when.days,
         if when.days == 1 { "" } else { "s" },
@@ -100,10 +98,10 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         when.zone,
     ));
 
-    let measured = measure(args, &city, &when, &tiles, cpu, stop);
+    let measured = measure(args, &facets, &when, &tiles, cpu, stop);
     let Measured { minutes, done, .. } = &measured;
     if *done == 0 {
-        say("interrupted before there was anything to keep; nothing written");
+        talk.say("interrupted before there was anything to keep; nothing written");
         return Ok(ExitCode::from(interrupt::EXIT_CODE));
     }
     output::write(args, &city, &grid, &when, &tiles, minutes)?;
@@ -116,9 +114,9 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         load_seconds,
         cpu.threads(),
     );
-    say(&summary(&statistics));
+    talk.say(&summary(&statistics));
     if args.output.is_none() && args.png.is_none() && !args.json {
-        say("nothing was written: -o shadow.tif keeps the minutes, --png shadow.png a map");
+        talk.say("nothing was written: -o shadow.tif keeps the minutes, --png shadow.png a map");
     }
     if args.json {
         let json = serde_json::to_string_pretty(&statistics)?;
@@ -145,9 +143,9 @@ fn load(args: &ShadowsArgs) -> anyhow::Result<City> {
     Ok(read_city(&args.city, &options)?)
 }
 
-fn grid(args: &ShadowsArgs, city: &City) -> anyhow::Result<Grid> {
+fn grid(args: &ShadowsArgs, city: &City, facets: &[Facet]) -> anyhow::Result<Grid> {
     let Some([west, south, east, north]) = args.area else {
-        return Ok(Grid::over(city, args.cell)?);
+        return Ok(Grid::over(facets, args.cell)?);
     };
     // The sides of an area of the map need not be straight here: its corners and the middles of its sides.
     let (x, y) = (0.5 * (west + east), 0.5 * (south + north));
@@ -179,9 +177,10 @@ fn grid(args: &ShadowsArgs, city: &City) -> anyhow::Result<Grid> {
     Ok(within.unwrap_or_else(|error| wrong_usage(&format!("--area: {error}"))))
 }
 
-/// Ends the program: what was typed makes no sense.
 fn wrong_usage(message: &str) -> ! {
-    Cli::command()
-        .error(ErrorKind::ValueValidation, message)
-        .exit()
+    super::wrong_usage("shadows", message)
+}
+
+fn no_days() -> ! {
+    wrong_usage("say which days: --date 2026-12-21, --season winter, or --from DAY --to DAY")
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ombra::accrual::Tiles;
 use ombra::city::{City, Grid};
-use ombra::formats::raster::{self, MapStyle, Raster, Unit, map_picture, write_geotiff};
+use ombra::formats::raster::{MapStyle, Raster, Unit, map_picture, write_geotiff};
 use ombra::formats::{Metadata, write_image};
 use serde::Serialize;
 
@@ -71,9 +71,9 @@ impl<'a> Statistics<'a> {
             sun_hours: when.hours(),
             buildings: city.buildings.len(),
             findings: city.findings.len(),
-            width: grid.width(),
-            height: grid.height(),
-            cell: grid.cell(),
+            width: grid.width,
+            height: grid.height,
+            cell: grid.cell,
             places: measured.minutes.len(),
             done: measured.done,
             minutes_least: minutes.iter().copied().fold(f32::INFINITY, f32::min).into(),
@@ -135,25 +135,6 @@ fn bound(args: &ShadowsArgs) -> String {
     }
 }
 
-/// What would fail in the end fails at once.
-pub(super) fn begin(args: &ShadowsArgs) -> anyhow::Result<()> {
-    for path in [&args.output, &args.png].into_iter().flatten() {
-        let folder = path
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
-        if let Some(folder) = folder
-            && !folder.is_dir()
-        {
-            anyhow::bail!(
-                "{}: there is no folder {}",
-                path.display(),
-                folder.display()
-            );
-        }
-    }
-    Ok(())
-}
-
 pub(super) fn write(
     args: &ShadowsArgs,
     city: &City,
@@ -166,13 +147,7 @@ pub(super) fn write(
     for (&cell, &minutes) in tiles.cells().iter().zip(minutes) {
         values[cell as usize] = minutes;
     }
-    let cells = raster::Grid {
-        corner: grid.corner(),
-        cell: grid.cell(),
-        width: grid.width(),
-        height: grid.height(),
-    };
-    let raster = Raster::new(&city.origin, cells, Unit::Minutes, &values)?;
+    let raster = Raster::new(&city.origin, *grid, Unit::Minutes, &values)?;
     if let Some(path) = &args.output {
         let entry = |key: &str, value: String| (key.to_owned(), value);
         let metadata = [

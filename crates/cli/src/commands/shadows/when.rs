@@ -7,7 +7,7 @@ use ombra::sun::{
 use rayon::prelude::*;
 
 use super::args::{Said, WhenArgs};
-use super::wrong_usage;
+use super::{no_days, wrong_usage};
 
 /// More samples would fill the memory.
 const MOST_SAMPLES: f64 = 1e7;
@@ -99,9 +99,7 @@ fn days(args: &WhenArgs, calendar: &Calendar) -> anyhow::Result<(Days, String)> 
             let days = Days::season(season.value, calendar.year, calendar)?;
             return Ok((days, format!("{} {}", season.text, calendar.year)));
         }
-        _ => wrong_usage(
-            "say which days: --date 2026-12-21, --season winter, or --from DAY --to DAY",
-        ),
+        _ => no_days(),
     };
     match Days::parse(&named, calendar) {
         Ok(days) => Ok((days, named)),

@@ -10,7 +10,7 @@ use anyhow::Context as _;
 use ombra::formats::{can_write_whole, write_whole};
 use ombra_study::{DEFAULT_SCENES, Settings, Study, Subject, Watch, study};
 
-use super::render::Talk;
+use super::Talk;
 use crate::interrupt;
 use crate::progress::Jobs;
 use args::Format;

@@ -2,12 +2,12 @@
 
 use std::io::Cursor;
 
-use ombra_city::{Crs, Origin};
+use ombra_city::{Crs, Grid, Origin};
 use tiff::decoder::{Decoder, DecodingResult};
 use tiff::tags::Tag;
 
 use super::*;
-use crate::raster::{Grid, Unit};
+use crate::raster::Unit;
 
 const METADATA: Tag = Tag::Unknown(42112);
 

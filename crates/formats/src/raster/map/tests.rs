@@ -1,10 +1,9 @@
 use std::path::PathBuf;
 
-use ombra_city::{Crs, Origin};
+use ombra_city::{Crs, Grid, Origin};
 
 use super::*;
 use crate::image::Metadata;
-use crate::raster::Grid;
 
 fn picture(width: u32, height: u32, cell: f64, values: &[f32], style: &MapStyle) -> ImageBuffer {
     let origin = Origin::new(Crs::wgs84(), [4.36, 52.01]).unwrap();
