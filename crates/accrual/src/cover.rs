@@ -112,30 +112,40 @@ impl Cover {
         }
     }
 
-    /// Shows what is covered, as stretches of arcs that do not overlap: arc by arc, place by place, in the
-    /// order of time.
-    pub(crate) fn each(&mut self, arcs: usize, mut show: impl FnMut(usize, usize, [f32; 2])) {
-        for arc in 0..arcs {
-            let pieces = &mut self.pieces[arc];
-            let by_time =
-                |a: &Piece, b: &Piece| (a.place.cmp(&b.place)).then(a.from.total_cmp(&b.from));
-            pieces.sort_unstable_by(by_time);
-            let mut pieces = pieces.iter().peekable();
+    /// Adds to the seconds of each place what of the arcs is covered, whose whole lengths are given.
+    ///
+    /// For all places at once: this is done for each arc of each tile, covered or not.
+    #[inline(always)]
+    pub(crate) fn add_seconds(&self, lengths: &[f64], seconds: &mut [f64; PLACES]) {
+        let rows = self.before.iter().zip(&self.after);
+        let mut sums = *seconds;
+        for (&length, (before, after)) in lengths.iter().zip(rows) {
             for place in 0..PLACES {
-                let (before, after) = (self.before[arc][place], self.after[arc][place]);
-                if after <= before + JOIN {
-                    show(arc, place, [0.0, 1.0]);
-                    continue;
-                }
-                if before > 0.0 {
-                    show(arc, place, [0.0, before]);
-                }
-                while let Some(piece) = pieces.next_if(|piece| piece.place == place) {
-                    show(arc, place, [piece.from, piece.to]);
-                }
-                if after < 1.0 {
-                    show(arc, place, [after, 1.0]);
-                }
+                let (before, after) = (before[place], after[place]);
+                let open = f64::from(after) - f64::from(before);
+                let share = if before + JOIN < after {
+                    1.0 - open
+                } else {
+                    1.0
+                };
+                sums[place] += length * share;
+            }
+        }
+        *seconds = sums;
+        let mut left = self.in_pieces;
+        while left != 0 {
+            let arc = left.trailing_zeros() as usize;
+            left &= left - 1;
+            self.add_pieces(arc, lengths[arc], seconds);
+        }
+    }
+
+    #[inline(never)]
+    fn add_pieces(&self, arc: usize, length: f64, seconds: &mut [f64; PLACES]) {
+        for piece in &self.pieces[arc] {
+            let place = piece.place;
+            if self.before[arc][place] + JOIN < self.after[arc][place] {
+                seconds[place] += length * (f64::from(piece.to) - f64::from(piece.from));
             }
         }
     }
@@ -152,11 +162,21 @@ mod tests {
         for &[from, to] in added {
             cover.add(0, 0, from, to);
         }
-        let mut all = Vec::new();
-        cover.each(1, |arc, place, stretch| {
-            assert_eq!((arc, place), (0, 0));
-            all.push(stretch);
-        });
+        let (before, after) = (cover.before[0][0], cover.after[0][0]);
+        let pieces = cover.pieces[0].iter().map(|piece| [piece.from, piece.to]);
+        let mut all: Vec<[f32; 2]> = pieces.collect();
+        all.push([0.0, before]);
+        all.push([after, 1.0]);
+        all.retain(|[from, to]| from < to);
+        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        if after <= before + JOIN {
+            all = vec![[0.0, 1.0]];
+        }
+        let mut seconds = [0.0; PLACES];
+        cover.add_seconds(&[60.0], &mut seconds);
+        let sum: f64 = all.iter().map(|[from, to]| f64::from(to - from)).sum();
+        assert!((seconds[0] - 60.0 * sum).abs() < 1e-4, "{seconds:?} {sum}");
+        assert_eq!(seconds[1..], [0.0; PLACES - 1]);
         all
     }
 

@@ -10,7 +10,7 @@ use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
-use crate::kernel::{Room, cover};
+use crate::kernel::{Job, Room, add_seconds};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
 use crate::tiles::Tiles;
@@ -74,23 +74,27 @@ impl<'a> Exact<'a> {
             // A place that is nowhere has no shadow, and its neighbours are looked at without it.
             for (place, seconds) in places.iter().zip(seconds) {
                 if place.iter().all(|x| x.is_finite()) {
-                    self.sum(&Tile::new(&[*place]), std::slice::from_mut(seconds), room);
+                    *seconds = self.sum(&Tile::new(&[*place]), room)[0];
                 }
             }
             return;
         }
-        self.sum(&Tile::new(&places), seconds, room);
+        let sums = self.sum(&Tile::new(&places), room);
+        seconds.copy_from_slice(&sums[..places.len()]);
     }
 
-    fn sum(&self, tile: &Tile, seconds: &mut [f64], room: &mut Room) {
+    fn sum(&self, tile: &Tile, room: &mut Room) -> [f64; PLACES] {
+        let mut seconds = [0.0; PLACES];
         for way in &self.ways {
-            cover(self.level, self.occluders, way, tile, room);
-            room.cover.each(way.len(), |arc, place, [from, to]| {
-                if let Some(seconds) = seconds.get_mut(place) {
-                    *seconds += way.seconds[arc] * f64::from(to - from);
-                }
-            });
+            let occluders = self.occluders;
+            let job = Job {
+                occluders,
+                way,
+                tile,
+            };
+            add_seconds(self.level, job, room, &mut seconds);
         }
+        seconds
     }
 }
 
@@ -156,7 +160,7 @@ mod tests {
 
     /// Every polygon before every arc, one place after another.
     fn plainly(occluders: &Occluders, sheets: &[Sheet], place: [f32; 3]) -> f64 {
-        let mut seconds = 0.0;
+        let mut seconds = [0.0; PLACES];
         let mut cover = crate::cover::Cover::new();
         let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         for way in sheets.iter().map(Way::new) {
@@ -181,13 +185,9 @@ mod tests {
                     covered(&sides, |from, to| cover.add(arc, 0, from, to));
                 }
             }
-            cover.each(way.len(), |arc, place, [from, to]| {
-                if place == 0 {
-                    seconds += way.seconds[arc] * f64::from(to - from);
-                }
-            });
+            cover.add_seconds(&way.seconds, &mut seconds);
         }
-        seconds
+        seconds[0]
     }
 
     #[test]

@@ -21,6 +21,8 @@ pub(crate) struct Way {
     pub(crate) sag: f32,
     /// The squared tangent of the altitude at each knot, a little too low.
     flat: Vec<f32>,
+    /// How far around each knot lies, counted from the start along the way.
+    turns: Vec<f32>,
     /// Where the way begins, see [`turn`].
     pub(crate) start: f32,
     /// 1 if azimuth grows with time, −1 if it falls.
@@ -91,6 +93,7 @@ impl Way {
             start,
             sign,
             arcs: by_cell(&relative),
+            turns: relative,
             knots,
         }
     }
@@ -113,6 +116,12 @@ impl Way {
         // The start lies between.
         let is_in_gap = first >= self.len();
         [0, if is_in_gap { last } else { self.len() - 1 }]
+    }
+
+    /// Between which turns some arcs lie.
+    #[inline(always)]
+    pub(crate) fn turns_of(&self, [first, last]: [usize; 2]) -> [f32; 2] {
+        [self.turns[first], self.turns[last + 1]]
     }
 
     /// The lowest squared tangent of the sun's altitude within some arcs: altitude has no minimum within

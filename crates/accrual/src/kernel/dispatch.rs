@@ -2,17 +2,17 @@
 
 use ombra_accel::Level;
 
-use super::lanes::{Pair, Portable};
+use super::lanes::{Lanes, Pair, Portable};
 use super::walk::{Waiting, walk};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
-use crate::tile::Tile;
+use crate::tile::{PLACES, Tile};
 use crate::way::Way;
 
 /// What a search needs besides, kept between searches.
 #[derive(Debug)]
 pub(crate) struct Room {
-    pub(crate) cover: Box<Cover>,
+    cover: Box<Cover>,
     waiting: Vec<Waiting>,
 }
 
@@ -33,35 +33,53 @@ mod x86 {
     /// # Safety
     /// - The processor has AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn avx2(occluders: &Occluders, way: &Way, tile: &Tile, room: &mut Room) {
-        let Room { cover, waiting } = room;
+    pub(super) unsafe fn avx2(job: Job<'_>, room: &mut Room, seconds: &mut [f64; PLACES]) {
         // SAFETY: the caller's promise.
-        unsafe { walk::<Avx2, Pair<Avx2>>(occluders, way, tile, cover, waiting) }
+        unsafe { add::<Avx2, Pair<Avx2>>(job, room, seconds) }
     }
 
     /// # Safety
     /// - The processor has AVX2 and AVX-512 F.
     #[target_feature(enable = "avx2,avx512f")]
-    pub(super) unsafe fn avx512(occluders: &Occluders, way: &Way, tile: &Tile, room: &mut Room) {
-        let Room { cover, waiting } = room;
+    pub(super) unsafe fn avx512(job: Job<'_>, room: &mut Room, seconds: &mut [f64; PLACES]) {
         // SAFETY: the caller's promise.
-        unsafe { walk::<Avx2, Avx512>(occluders, way, tile, cover, waiting) }
+        unsafe { add::<Avx2, Avx512>(job, room, seconds) }
     }
 }
 
-/// Covers, in `room`, what of the way is covered for the tile.
-pub(crate) fn cover(level: Level, occluders: &Occluders, way: &Way, tile: &Tile, room: &mut Room) {
+/// Before what, on which way, seen from where.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    pub(crate) occluders: &'a Occluders,
+    pub(crate) way: &'a Way,
+    pub(crate) tile: &'a Tile,
+}
+
+/// Adds to the seconds of each place how long the way is covered.
+pub(crate) fn add_seconds(
+    level: Level,
+    job: Job<'_>,
+    room: &mut Room,
+    seconds: &mut [f64; PLACES],
+) {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a level is one that this machine has.
-        Level::Avx2 => unsafe { x86::avx2(occluders, way, tile, room) },
+        Level::Avx2 => unsafe { x86::avx2(job, room, seconds) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Level::Avx512 => unsafe { x86::avx512(occluders, way, tile, room) },
-        _ => {
-            let Room { cover, waiting } = room;
-            // SAFETY: every processor has these.
-            unsafe { walk::<Portable, Pair<Portable>>(occluders, way, tile, cover, waiting) }
-        }
+        Level::Avx512 => unsafe { x86::avx512(job, room, seconds) },
+        // SAFETY: every processor has these.
+        _ => unsafe { add::<Portable, Pair<Portable>>(job, room, seconds) },
     }
+}
+
+/// # Safety
+/// - The processor has the instructions of both.
+#[inline(always)]
+unsafe fn add<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut Room, seconds: &mut [f64; PLACES]) {
+    let Room { cover, waiting } = room;
+    // SAFETY: the caller's promise.
+    unsafe { walk::<N, P>(job.occluders, job.way, job.tile, cover, waiting) };
+    cover.add_seconds(&job.way.seconds, seconds);
 }

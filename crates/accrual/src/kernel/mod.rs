@@ -10,6 +10,6 @@ mod polygon;
 mod reference;
 mod walk;
 
-pub(crate) use dispatch::{Room, cover};
+pub(crate) use dispatch::{Job, Room, add_seconds};
 #[cfg(test)]
 pub(crate) use reference::{Side, covered};

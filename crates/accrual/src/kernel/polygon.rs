@@ -205,13 +205,12 @@ unsafe fn one_arc<P: Lanes>(
                 cover.add_piece(arc, place, begins[place], ends[place]);
             }
         }
+        let (mut before, mut after) = (before, after);
         if cover.in_pieces >> arc & 1 == 1 {
             cover.settle(arc);
+            before = P::load(cover.before[arc].as_ptr());
+            after = P::load(cover.after[arc].as_ptr());
         }
-        let (before, after) = (
-            P::load(cover.before[arc].as_ptr()),
-            P::load(cover.after[arc].as_ptr()),
-        );
         let gap = before.below(after.minus(join));
         cover.full |= u128::from(gap.bits() == 0) << arc;
     }

@@ -12,7 +12,7 @@ use super::polygon::polygon;
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::Tile;
-use crate::way::{TURN_PAD, Way, wrapped};
+use crate::way::{TURN_PAD, Way};
 
 /// What waits to be looked at.
 #[derive(Clone, Copy, Debug)]
@@ -122,7 +122,7 @@ impl<N: Lanes> Around<N> {
         let (mut from, mut to) = ([0.0_f32; 8], [0.0_f32; 8]);
         let (mut height, mut distance) = ([0.0_f32; 8], [0.0_f32; 8]);
         // SAFETY: the caller's promise; a node has eight boxes.
-        let (above, within) = unsafe {
+        let (left, within) = unsafe {
             let zero = N::splat(0.0);
             let lx = N::load(node.lower[0].as_ptr()).minus(self.most[0]);
             let ly = N::load(node.lower[1].as_ptr()).minus(self.most[1]);
@@ -152,27 +152,31 @@ impl<N: Lanes> Around<N> {
                 north,
                 (ly.or_where_not(east, hy)).or_where_not(south, ly.or_where_not(east, hy)),
             );
-            turns(ax, ay).store(from.as_mut_ptr());
-            turns(bx, by).store(to.as_mut_ptr());
+            let (a, b) = (turns(ax, ay), turns(bx, by));
+            let (a, b) = if way.sign < 0.0 { (b, a) } else { (a, b) };
+            let a = relative(a, way, -TURN_PAD);
+            let b = relative(b, way, TURN_PAD);
+            // Most of what is in vain is seen here, for all eight at once.
+            let [begin, end] = way.turns_of(arcs).map(|turn| N::splat(turn));
+            let beside = b.below(begin).or(end.below(a)).and_not(b.below(a));
+            let lowest = squared.times(N::splat(way.lowest(arcs)));
+            let higher = lowest.below(up.times(up)).bits();
+            let left = above & higher & (within | !beside.bits());
+            a.store(from.as_mut_ptr());
+            b.store(to.as_mut_ptr());
             up.store(height.as_mut_ptr());
             squared.store(distance.as_mut_ptr());
-            (above, within)
+            (left, within)
         };
         let begin = waiting.len();
-        let mut left = above;
+        let mut left = left;
         let mut keys = [0.0_f32; 8];
         while left != 0 {
             let k = left.trailing_zeros() as usize;
             left &= left - 1;
             let mut own = arcs;
             if within >> k & 1 == 0 {
-                let (mut a, mut b) = (from[k], to[k]);
-                if way.sign < 0.0 {
-                    (a, b) = (b, a);
-                }
-                let a = wrapped(way.sign * (a - way.start) - TURN_PAD);
-                let b = wrapped(way.sign * (b - way.start) + TURN_PAD);
-                let [first, last] = way.between(a, b);
+                let [first, last] = way.between(from[k], to[k]);
                 own = [arcs[0].max(first), arcs[1].min(last)];
                 if own[0] > own[1] {
                     continue;
@@ -213,5 +217,21 @@ unsafe fn turns<N: Lanes>(east: N, north: N) -> N {
         let west = q.below(zero);
         let ahead = N::splat(4.0).plus(q).or_where_not(west, q);
         N::splat(2.0).minus(q).or_where_not(behind, ahead)
+    }
+}
+
+/// Turns as counted from the start of a way along it, from 0 to 4, and later by so much.
+///
+/// # Safety
+/// - The processor has the instructions of `N`.
+#[inline(always)]
+unsafe fn relative<N: Lanes>(turns: N, way: &Way, later: f32) -> N {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let (zero, whole) = (N::splat(0.0), N::splat(4.0));
+        let turns = turns.minus(N::splat(way.start)).times(N::splat(way.sign));
+        let turns = turns.plus(N::splat(later));
+        let turns = turns.plus(whole).or_where_not(turns.below(zero), turns);
+        turns.or_where_not(turns.below(whole), turns.minus(whole))
     }
 }
