@@ -28,9 +28,9 @@ pub(crate) struct Cover {
     /// And from here to 1.
     pub(crate) after: [[f32; PLACES]; MOST],
     /// Bit k: arc k is covered wholly for all places.
-    pub(crate) full: u128,
+    pub(crate) full: u64,
     /// Bit k: arc k has pieces.
-    pub(crate) in_pieces: u128,
+    pub(crate) in_pieces: u64,
     /// By arc, of each place disjoint.
     pieces: [Vec<Piece>; MOST],
 }

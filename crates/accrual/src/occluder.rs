@@ -8,14 +8,15 @@ use ombra_geometry::{Aabb, Point3};
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Occluder {
+    /// Outward, as long as it happens to be. What tells whether it is seen at all comes first, in one line of
+    /// the cache.
+    pub(crate) normal: [f32; 3],
+    /// Whether it throws shadow on both its sides.
+    pub(crate) is_two_sided: bool,
     /// The corners, counter-clockwise seen from outside.
     pub(crate) corner: [[f32; 3]; 4],
     /// From each corner to the next one; 0 where a corner is there twice.
     pub(crate) edge: [[f32; 3]; 4],
-    /// Outward, as long as it happens to be.
-    pub(crate) normal: [f32; 3],
-    /// Whether it throws shadow on both its sides.
-    pub(crate) is_two_sided: bool,
 }
 
 /// Everything that throws shadow, found by where it is.

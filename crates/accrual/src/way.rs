@@ -3,7 +3,7 @@
 use ombra_sun::Sheet;
 
 /// The most arcs of a way.
-pub(crate) const MOST: usize = 128;
+pub(crate) const MOST: usize = 64;
 
 /// Directions are looked up by azimuth in so many cells a turn.
 const CELLS: usize = 4096;
@@ -51,10 +51,7 @@ impl Way {
     /// Of one sheet, which has an arc at least and [`MOST`] at most.
     pub(crate) fn new(sheet: &Sheet) -> Self {
         let arcs = sheet.arcs();
-        assert!(
-            (1..=MOST).contains(&arcs.len()),
-            "a sheet has 1 to 128 arcs"
-        );
+        assert!((1..=MOST).contains(&arcs.len()), "a sheet has 1 to 64 arcs");
         let single = |v: [f64; 3]| v.map(|x| x as f32);
         // At sunrise the sun may be below the horizon by rounding: walls on the ground where a place is
         // would not cover it then, for a moment, and no such arc would ever be covered wholly.

@@ -14,7 +14,7 @@
 //!     for span in hours.spans(&sky, &calendar.zone, date) {
 //!         assert_eq!(span.seconds(), 6.5 * 3600.0);
 //!         for sheet in Sheet::cover(&sky, span) {
-//!             assert!(sheet.arcs().len() <= 128);
+//!             assert!(sheet.arcs().len() <= 64);
 //!         }
 //!     }
 //! }

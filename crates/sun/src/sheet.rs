@@ -6,7 +6,7 @@ use crate::crossing::{Crossing, crossings};
 use crate::{Arc, Instant, Refraction, Sky, Span};
 
 /// The most arcs of one sheet.
-pub const MAX_ARCS: usize = 128;
+pub const MAX_ARCS: usize = 64;
 
 /// The farthest that the sun turns in one sheet, degrees of azimuth.
 pub const MAX_SWEEP: f64 = 350.0;
@@ -26,7 +26,7 @@ const POLAR: f64 = 60.0;
 /// How arcs share a sheet's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knots {
-    /// Seconds of an arc in the mean; longer where 128 arcs would not do. 60 to 7200.
+    /// Seconds of an arc in the mean; longer where 64 arcs would not do. 60 to 7200.
     pub spacing: f64,
     /// How much denser arcs are at a low sun, where many obstacles lie in few degrees: knots are at
     /// x - w sin(2πx)/2π, so that arcs there are 1-w as long as in the mean. 0 to 0.9.

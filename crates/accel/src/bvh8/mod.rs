@@ -54,7 +54,7 @@ pub(crate) use shown::Shown;
 use store::Store;
 pub(crate) use wide::WideTree;
 
-pub use kernel::Level;
+pub use kernel::{Level, prefetch};
 pub(crate) use kernel::{not_above, rounded};
 pub(crate) use node::{Node, WIDTH};
 

@@ -7,6 +7,7 @@
 mod dispatch;
 mod lanes;
 mod polygon;
+mod prefetch;
 mod reference;
 mod walk;
 

@@ -212,7 +212,7 @@ unsafe fn one_arc<P: Lanes>(
             after = P::load(cover.after[arc].as_ptr());
         }
         let gap = before.below(after.minus(join));
-        cover.full |= u128::from(gap.bits() == 0) << arc;
+        cover.full |= u64::from(gap.bits() == 0) << arc;
     }
 }
 

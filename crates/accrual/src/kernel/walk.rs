@@ -43,7 +43,7 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
         let mut node = occluders.tree.root();
         let mut arcs = [0, way.len() - 1];
         'search: loop {
-            around.push(&nodes[node], arcs, way, cover.full, waiting);
+            around.push(occluders, &nodes[node], arcs, way, cover.full, waiting);
             loop {
                 let Some(next) = waiting.pop() else {
                     break 'search;
@@ -68,15 +68,15 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
 
 /// Without what is covered for all places at either end.
 #[inline(always)]
-fn trimmed([first, last]: [usize; 2], full: u128) -> [usize; 2] {
+fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
     let left = !full >> first << first;
-    let left = left & (u128::MAX >> (127 - last));
+    let left = left & (u64::MAX >> (63 - last));
     if left == 0 {
         return [1, 0];
     }
     [
         left.trailing_zeros() as usize,
-        127 - left.leading_zeros() as usize,
+        63 - left.leading_zeros() as usize,
     ]
 }
 
@@ -113,10 +113,11 @@ impl<N: Lanes> Around<N> {
     #[inline(always)]
     unsafe fn push(
         &self,
+        occluders: &Occluders,
         node: &BoxNode,
         arcs: [usize; 2],
         way: &Way,
-        full: u128,
+        full: u64,
         waiting: &mut Vec<Waiting>,
     ) {
         let (mut from, mut to) = ([0.0_f32; 8], [0.0_f32; 8]);
@@ -186,6 +187,7 @@ impl<N: Lanes> Around<N> {
             if own[0] > own[1] || height[k] * height[k] <= distance[k] * way.lowest(own) {
                 continue;
             }
+            occluders.ask_for(node.child[k]);
             // The farthest first.
             let key = distance[k];
             let mut place = waiting.len() - begin;

@@ -11,12 +11,14 @@ mod level;
 mod lists;
 mod many;
 mod packet;
+mod prefetch;
 mod ray;
 mod small;
 mod stream;
 mod walk;
 
 pub use level::Level;
+pub use prefetch::prefetch;
 
 pub(super) use layout::Full;
 pub(super) use small::Small;

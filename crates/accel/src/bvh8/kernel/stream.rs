@@ -24,6 +24,7 @@ use ombra_geometry::Ray;
 use super::super::node::Child;
 use super::layout::{Layout, Leaf as _};
 use super::level::{Lanes, WideLanes as _};
+use super::prefetch::prefetch;
 use super::ray::{Near, SingleRay};
 use super::walk::{Found, STACK, Sheared, Slabs, Tree, Word, shear};
 
@@ -370,36 +371,10 @@ unsafe fn take_in<L: Lanes, W: Word>(under: *mut Under) {
 #[inline(always)]
 fn ask_for<Y: Layout>(tree: &Tree<Y>, child: Child) {
     // Addresses of what is not there do no harm.
-    let at = tree.layout.begin(child).cast::<i8>();
+    let at = tree.layout.begin(child).cast::<u8>();
     for line in 0..Y::LINES {
         prefetch(at.wrapping_add(64 * line));
     }
 }
-
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-fn prefetch(at: *const i8) {
-    use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-    // SAFETY: a prefetch reads nothing that a program can see.
-    unsafe { _mm_prefetch::<_MM_HINT_T0>(at) };
-}
-
-/// There is no stable intrinsic for it.
-#[cfg(target_arch = "aarch64")]
-#[inline(always)]
-fn prefetch(at: *const i8) {
-    // SAFETY: as on x86-64.
-    unsafe {
-        std::arch::asm!(
-            "prfm pldl1keep, [{}]",
-            in(reg) at,
-            options(readonly, nostack, preserves_flags),
-        );
-    }
-}
-
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-#[inline(always)]
-fn prefetch(_: *const i8) {}
 
 const _: () = assert!(FLIGHT <= 32);
