@@ -56,23 +56,18 @@ impl<'a> Exact<'a> {
     }
 
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
-        let tiles: Vec<ArrayVec<f64, PLACES>> = lists
-            .par_iter()
-            .map_init(Room::new, |room, places| {
-                let mut seconds = ArrayVec::from([0.0; PLACES]);
-                seconds.truncate(places.len());
-                self.tile(places, &mut seconds, room);
-                seconds
-            })
-            .collect();
-        tiles.into_iter().flatten().collect()
+        by_tiles(lists, |places, seconds, room| {
+            self.tile(places, seconds, room);
+        })
     }
 
-    fn tile(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) {
+    /// Writes the seconds of up to sixteen places.
+    pub(crate) fn tile(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) {
         let places: ArrayVec<[f32; 3], PLACES> = places.iter().map(|p| p.to_array()).collect();
         if places.iter().flatten().any(|x| !x.is_finite()) {
             // A place that is nowhere has no shadow, and its neighbours are looked at without it.
             for (place, seconds) in places.iter().zip(seconds) {
+                *seconds = 0.0;
                 if place.iter().all(|x| x.is_finite()) {
                     *seconds = self.sum(&Tile::new(&[*place]), room)[0];
                 }
@@ -96,6 +91,23 @@ impl<'a> Exact<'a> {
         }
         seconds
     }
+}
+
+/// Tiles in parallel: `tile` writes the seconds of the places that it is given.
+pub(crate) fn by_tiles(
+    lists: &[&[Point3]],
+    tile: impl Fn(&[Point3], &mut [f64], &mut Room) + Sync,
+) -> Vec<f64> {
+    let tiles: Vec<ArrayVec<f64, PLACES>> = lists
+        .par_iter()
+        .map_init(Room::new, |room, places| {
+            let mut seconds = ArrayVec::from([0.0; PLACES]);
+            seconds.truncate(places.len());
+            tile(places, &mut seconds, room);
+            seconds
+        })
+        .collect();
+    tiles.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

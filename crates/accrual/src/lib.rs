@@ -1,10 +1,12 @@
 //! How long every place lies in shadow: exact in time, and sampled.
 //!
 //! [`Occluders`] are the polygons of a city, [`Exact`] measures how long they stand before the sun, seen
-//! from places, over [sheets](ombra_sun::Sheet) of its way.
+//! from places, over [sheets](ombra_sun::Sheet) of its way. [`Fast`] measures a long period by
+//! some of its days.
 
 mod cover;
 mod exact;
+mod fast;
 mod ground;
 mod kernel;
 mod occluder;
@@ -14,6 +16,7 @@ mod tiles;
 mod way;
 
 pub use exact::Exact;
+pub use fast::{Difference, Fast};
 pub use ground::Ground;
 pub use occluder::Occluders;
 pub use sampled::{Sampled, Samples};

@@ -73,6 +73,22 @@ impl Tiles {
         }
     }
 
+    /// So many of the tiles, or all if there are fewer, spread evenly over them.
+    #[must_use]
+    pub fn spread(&self, count: usize) -> Self {
+        let count = count.min(self.len());
+        let mut some = Self::default();
+        for k in 0..count {
+            // The middle ones of as many parts.
+            let tile = (2 * k + 1) * self.len() / (2 * count);
+            let range = self.range(tile..tile + 1);
+            some.places.extend(&self.places[range.clone()]);
+            some.cells.extend(&self.cells[range]);
+            some.ends.push(some.places.len());
+        }
+        some
+    }
+
     /// All places, in local metres.
     #[must_use]
     pub fn places(&self) -> &[Point3] {

@@ -6,7 +6,7 @@ use ombra_sun::Sheet;
 pub(crate) const MOST: usize = 64;
 
 /// Directions are looked up by azimuth in so many cells a turn.
-const CELLS: usize = 4096;
+const CELLS: usize = 1024;
 
 /// Arcs, in single precision, and which of them lie in which direction.
 #[derive(Clone, Debug)]

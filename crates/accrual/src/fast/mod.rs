@@ -1,0 +1,120 @@
+//! Shadow time of a long period from some of its days, that stand for those around them.
+//!
+//! From one day to the next the sun's way hardly changes, so neither does the shadow. How many days it
+//! takes depends on the city, the period and the hours, and no formula tells: so at some places, spread
+//! over all, every day is measured, and those days are taken that come close enough to that at each of
+//! these. Where a place's shadow changes much from one of these days to the next, every day is measured there,
+//! too: what happens in between is not known.
+
+mod choice;
+mod day;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use ombra_sun::Sheet;
+
+use crate::exact::{Exact, by_tiles};
+use crate::kernel::Room;
+use crate::occluder::Occluders;
+use crate::tile::PLACES;
+use crate::tiles::Tiles;
+
+use choice::Choice;
+pub use choice::Difference;
+use day::Day;
+
+/// Measures the shadow of a long period by some of its days.
+#[derive(Debug)]
+pub struct Fast<'a> {
+    every: Exact<'a>,
+    some: Vec<Exact<'a>>,
+    choice: Choice,
+    /// How far a place may be off, in seconds.
+    tolerance: f64,
+    /// How many places were measured on every day.
+    refined: AtomicUsize,
+}
+
+impl<'a> Fast<'a> {
+    /// With as many days as keep shadow time within `tolerance`, a share of the time that the sun is up (0.005 for
+    /// half a percent): `days` has the sheets of each day of the period, and `tiles` the places that will be asked for. If that takes
+    /// nearly all days, or there is no tolerance, it is all of them.
+    ///
+    /// `None` if `is_wanted` said no meanwhile.
+    #[must_use]
+    pub fn new(
+        occluders: &'a Occluders,
+        days: &[Vec<Sheet>],
+        tiles: &Tiles,
+        tolerance: f64,
+        is_wanted: impl Fn() -> bool + Sync,
+    ) -> Option<Self> {
+        let days: Vec<Day<'_>> = days.iter().filter_map(|sheets| Day::new(sheets)).collect();
+        let choice = Choice::new(occluders, &days, tiles, tolerance, is_wanted)?;
+        let all: Vec<Sheet> = days.iter().flat_map(|day| day.sheets).cloned().collect();
+        let taken = choice.taken.iter();
+        Some(Self {
+            every: Exact::new(occluders, &all),
+            some: taken
+                .map(|own| Exact::new(occluders, days[own.day].sheets))
+                .collect(),
+            tolerance: tolerance * days.iter().map(|day| day.seconds).sum::<f64>(),
+            choice,
+            refined: AtomicUsize::new(0),
+        })
+    }
+
+    /// How many days stand for all; 0 if every day is measured everywhere.
+    #[must_use]
+    pub fn days(&self) -> usize {
+        self.some.len()
+    }
+
+    /// How far it is off where it was compared with every day.
+    #[must_use]
+    pub fn error(&self) -> Difference {
+        self.choice.error
+    }
+
+    /// At how many places so far every day was measured.
+    #[must_use]
+    pub fn refined(&self) -> usize {
+        self.refined.load(Ordering::Relaxed)
+    }
+
+    /// How many seconds each place of some of the tiles lies in shadow, see [`Tiles::range`].
+    #[must_use]
+    pub fn seconds_of(&self, tiles: &Tiles, which: std::ops::Range<usize>) -> Vec<f64> {
+        by_tiles(&tiles.lists(which), |places, seconds, room| {
+            if self.some.is_empty() || !self.by_some(places, seconds, room) {
+                self.every.tile(places, seconds, room);
+                self.refined.fetch_add(places.len(), Ordering::Relaxed);
+            }
+        })
+    }
+
+    /// Whether the days that are taken tell.
+    fn by_some(
+        &self,
+        places: &[ombra_geometry::Point3],
+        seconds: &mut [f64],
+        room: &mut Room,
+    ) -> bool {
+        seconds.fill(0.0);
+        let mut squares = [0.0; PLACES];
+        let (mut last, mut own) = ([0.0; PLACES], [0.0; PLACES]);
+        for (k, (exact, taken)) in self.some.iter().zip(&self.choice.taken).enumerate() {
+            exact.tile(places, &mut own[..places.len()], room);
+            for place in 0..places.len() {
+                seconds[place] += taken.times * own[place];
+                if k > 0 {
+                    squares[place] += taken.unknown(last[place], own[place]).powi(2);
+                }
+            }
+            last = own;
+        }
+        squares
+            .iter()
+            .all(|square| choice::is_known(square.sqrt(), self.tolerance))
+    }
+}
