@@ -60,12 +60,14 @@ fn assert_matches(name: &str, toward: [i64; 2], altitude: f64) {
     let ground = Ground::new(&city);
     let marched = Marched::new(&field, toward, altitude);
     let local = |pixel: [u32; 2]| city.origin.to_local(field.on_map(pixel));
-    // The masks are in the grid's own axes, and its north leans against the true one of local metres.
+    // The masks are in the grid's own axes and metres: its north leans against the true one of local metres, and
+    // its metres are shorter by 0.0004.
+    const STEPS: i64 = 100;
     let middle = [200, 200];
-    let next = [0, 1].map(|k| (middle[k] as i64 + 100 * toward[k]) as u32);
-    let way = [0, 1].map(|k| local(next)[k] - local(middle)[k]);
-    let lean = (way[0].hypot(way[1]), altitude.to_radians().tan());
-    let toward_sun = Vector3::new(way[0] as f32, way[1] as f32, (lean.0 * lean.1) as f32);
+    let next = [0, 1].map(|k| (middle[k] as i64 + STEPS * toward[k]) as u32);
+    let [x, y] = [0, 1].map(|k| local(next)[k] - local(middle)[k]);
+    let z = STEPS as f64 * altitude.to_radians().tan();
+    let toward_sun = Vector3::new(x as f32, y as f32, z as f32);
     let (mut wrong, mut unexplained, mut nowhere) = (0, 0, 0);
     for (k, &sunlit) in mask.iter().enumerate() {
         let pixel = [k as u32 % 400, k as u32 / 400];
@@ -80,7 +82,10 @@ fn assert_matches(name: &str, toward: [i64; 2], altitude: f64) {
         let lift = f64::from(place.z) - f64::from(field.at(pixel));
         assert!(lift.abs() < 0.05, "{lift} m at {pixel:?}");
         let margin = marched.margin[k] - lift;
-        unexplained += usize::from(found == (margin > 0.0) && margin.abs() > 3e-3);
+        // Along the very rim of the surface light passes beside it or not, by rounding.
+        let is_along_rim = (0..2).any(|k| toward[k] == 0 && [0, 399].contains(&pixel[k]));
+        let is_wrong = found == (margin > 0.0) && margin.abs() > 3e-3;
+        unexplained += usize::from(is_wrong && !is_along_rim);
     }
     let share = 1.0 - (wrong + nowhere) as f64 / mask.len() as f64;
     println!(
