@@ -124,7 +124,7 @@ pub fn inspect(path: impl AsRef<Path>) -> Result<FileInfo, FormatError> {
 }
 
 /// Whether the first bytes of a file, unpacked, are of a kind.
-fn begins(path: &Path, is_so: impl Fn(&[u8]) -> bool) -> Result<bool, FormatError> {
+pub(crate) fn begins(path: &Path, is_so: impl Fn(&[u8]) -> bool) -> Result<bool, FormatError> {
     const HEAD: usize = 4096;
     let peek = || -> Result<bool, FormatError> {
         let mut source = Input::on_disk(path).source(&Limits::default())?;

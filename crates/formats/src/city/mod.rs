@@ -33,6 +33,7 @@ mod footprint;
 mod geojson;
 mod info;
 mod json;
+mod model;
 mod osm;
 mod polygon_list;
 #[cfg(test)]
@@ -50,6 +51,7 @@ use crate::limits::Limits;
 pub use info::{CityInfo, HeightsInfo};
 pub(crate) use info::{city_info, is_city};
 use json::Kind;
+pub use model::{CityModel, Up, read_city_model};
 
 /// What can be read, as messages have it.
 const KNOWN: &str =

@@ -29,6 +29,7 @@ use tiff::TiffError;
 use tiff::decoder::Decoder;
 
 use crate::error::{Fault, FormatError, shown};
+use crate::info::begins;
 use crate::input::Input;
 use crate::limits::Limits;
 use geo_tags::GeoTags;
@@ -72,6 +73,14 @@ pub fn read_elevation(
         parse(&bytes, crs, limits)
     };
     read().map_err(|error| error.in_file(input.name()))
+}
+
+/// Whether a file begins as TIFF does.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn is_elevation(path: impl AsRef<Path>) -> Result<bool, FormatError> {
+    begins(path.as_ref(), is_tiff)
 }
 
 /// Whether bytes begin as TIFF and BigTIFF do, in either order of bytes.
