@@ -15,7 +15,7 @@ use crate::extent::Extent;
 use crate::origin::Origin;
 
 /// The most pixels of a height field that are made into a surface: 16,777,216, as 4096 × 4096 have. A
-/// triangle takes up to 300 bytes on the way to its shadow, and there are two a pixel.
+/// triangle takes up to 400 bytes on the way to its shadow, and there are two a pixel.
 pub const MOST_PIXELS: u64 = 1 << 24;
 
 /// Heights on a raster of a map: a digital surface model (DSM) or a digital terrain model (DEM, DTM).
