@@ -48,6 +48,7 @@ fn limits() -> Limits {
         decompressed_bytes: 1 << 20,
         line_bytes: 1 << 16,
         image_pixels: 1 << 16,
+        raster_pixels: 1 << 20,
     }
 }
 

@@ -34,7 +34,7 @@ pub(super) fn on_ground(city: &City, inside: &Inside, windows: usize, side: usiz
                 .map(|k| {
                     let x = low[0] + corner[0] + (k % SIDE) as f32 + 0.5;
                     let y = low[1] + corner[1] + (k / SIDE) as f32 + 0.5;
-                    let place = ground.at([x, y].map(f64::from));
+                    let place = ground.at([x, y].map(f64::from))?;
                     (!inside.contains(place)).then_some(place)
                 })
                 .collect();

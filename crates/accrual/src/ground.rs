@@ -8,12 +8,15 @@ use ombra_geometry::{Point3, Ray, TriangleMesh, Vector3};
 /// be on either side by rounding.
 const ABOVE: f32 = 0.02;
 
+/// Places are looked for so far aside, in metres, where no triangle is straight below.
+const CRACK: f32 = 2e-4;
+
 /// The ground of a city: its terrain, or flat.
 #[derive(Debug)]
 pub struct Ground {
     terrain: Option<Accel<Mesh>>,
-    /// Where there is no terrain.
-    flat: f32,
+    /// Where there is no terrain; `None` if there is no ground there either.
+    flat: Option<f32>,
 }
 
 impl Ground {
@@ -27,20 +30,31 @@ impl Ground {
         Self {
             terrain: (!city.terrain.is_empty())
                 .then(|| Accel::build(Mesh::new(mesh), StructureKind::default())),
-            flat: city.ground,
+            flat: (!city.is_terrain_all).then_some(city.ground),
         }
     }
 
     /// The place on the ground, local metres: the highest where terrain hangs over, the flat ground where it
-    /// has a hole.
+    /// has a hole; `None` if there is no ground ([`City::is_terrain_all`]).
     #[must_use]
-    pub fn at(&self, [x, y]: [f64; 2]) -> Point3 {
+    pub fn at(&self, [x, y]: [f64; 2]) -> Option<Point3> {
         let (x, y) = (x as f32, y as f32);
         let height = self.terrain.as_ref().and_then(|terrain| {
             let top = terrain.bounds().max.z + 1.0;
-            let down = Ray::new(Point3::new(x, y, top), -Vector3::Z);
-            Some(top - terrain.intersect(&down)?.t + ABOVE)
+            // Where the corner of one triangle lies on the side of another, rounding leaves a crack.
+            let aside = CRACK.max(x.abs().max(y.abs()) * 4.0 * f32::EPSILON);
+            let near = [
+                [0.0, 0.0],
+                [aside, aside],
+                [-aside, -aside],
+                [aside, -aside],
+                [-aside, aside],
+            ];
+            near.into_iter().find_map(|[dx, dy]| {
+                let down = Ray::new(Point3::new(x + dx, y + dy, top), -Vector3::Z);
+                Some(top - terrain.intersect(&down)?.t + ABOVE)
+            })
         });
-        Point3::new(x, y, height.unwrap_or(self.flat))
+        Some(Point3::new(x, y, height.or(self.flat)?))
     }
 }

@@ -62,7 +62,7 @@ impl Tiles {
         for row in row..(row + SIDE).min(grid.height) {
             for column in column..(column + SIDE).min(grid.width) {
                 let place = ground.at(grid.centre(column, row));
-                if !inside.contains(place) {
+                if let Some(place) = place.filter(|&place| !inside.contains(place)) {
                     self.places.push(place);
                     self.cells.push(row * grid.width + column);
                 }

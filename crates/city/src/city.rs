@@ -26,6 +26,11 @@ pub struct City {
     pub buildings: Vec<Building>,
     /// The ground, where the file has it: triangles, counter-clockwise as seen from above.
     pub terrain: Vec<[Point3; 3]>,
+    /// Whether there is no ground but terrain: places beside it and in its holes are on none. Otherwise they
+    /// are on the flat ground.
+    pub is_terrain_all: bool,
+    /// What else casts shadow: triangles of added models, and what stands on the ground of a surface model.
+    pub context: Vec<[Point3; 3]>,
     /// The z of flat ground, metres: the lowest that any building stands on. Walls of buildings
     /// without a terrain reach down to it, so that no light creeps below them.
     pub ground: f32,
@@ -36,7 +41,7 @@ pub struct City {
 impl City {
     /// All that casts shadow: walls, roofs, the floors of what hangs in the air, and terrain.
     ///
-    /// The order is that of the buildings and their parts; terrain comes last.
+    /// The order is that of the buildings and their parts; then come terrain and context.
     #[must_use]
     pub fn facets(&self) -> Vec<Facet> {
         let mut facets = Vec::new();
@@ -53,11 +58,13 @@ impl City {
                 }
             }
         }
-        facets.extend(self.terrain.iter().map(|&[a, b, c]| Facet {
+        let triangle = |&[a, b, c]: &[Point3; 3], owner| Facet {
             corners: [a, b, c, c],
             is_two_sided: true,
-            owner: Facet::TERRAIN,
-        }));
+            owner,
+        };
+        facets.extend((self.terrain.iter()).map(|corners| triangle(corners, Facet::TERRAIN)));
+        facets.extend((self.context.iter()).map(|corners| triangle(corners, Facet::CONTEXT)));
         facets
     }
 

@@ -8,6 +8,7 @@ use crate::building::{Building, Face, Faces, Part, Prism, Surface};
 use crate::city::{City, Plane};
 use crate::crs::Crs;
 use crate::error::CityError;
+use crate::facet::Facet;
 use crate::finding::Notes;
 use crate::origin::Origin;
 use crate::parts;
@@ -15,7 +16,7 @@ use crate::repair;
 
 /// What lies farther from the origin than this, in metres, is left out: local metres are no longer
 /// those of the ground there, nor has single precision a centimetre left.
-const FARTHEST: f64 = 60_000.0;
+pub(crate) const FARTHEST: f64 = 60_000.0;
 
 /// A city in the coordinates of its map.
 #[derive(Clone, Debug)]
@@ -113,10 +114,10 @@ impl Draft {
             placed.collect::<Vec<_>>()
         });
         let buildings = parts::in_place(buildings, parts, &mut self.notes);
-        if buildings.len() >= u32::MAX as usize {
+        if buildings.len() > Facet::CONTEXT as usize {
             return Err(CityError::TooMany {
                 what: "buildings",
-                limit: u64::from(u32::MAX) - 1,
+                limit: u64::from(Facet::CONTEXT),
             });
         }
         let terrain = terrain(&self.terrain, &origin, &mut self.notes);
@@ -131,6 +132,8 @@ impl Draft {
             origin,
             buildings,
             terrain,
+            is_terrain_all: false,
+            context: Vec::new(),
             findings,
         })
     }

@@ -35,6 +35,49 @@ pub enum CityError {
         /// Why not.
         findings: Vec<Finding>,
     },
+    /// Heights that are no surface.
+    #[error("{what}")]
+    HeightField {
+        /// What is wrong, and what would be right.
+        what: String,
+    },
+    /// More pixels of heights within reach of the places than can be made into a surface.
+    #[error(
+        "{width} x {height} pixels lie within reach of the places, over the limit of {} \
+         (4096 x 4096): cut the file, make its pixels larger, or ask for a smaller area and a higher \
+         sun, which needs less around it",
+        crate::height_field::MOST_PIXELS
+    )]
+    ManyPixels {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// Heights that do not lie where they are asked for.
+    #[error(
+        "no height lies within reach of the places; the pixels lie {distance_km:.0} km away, if their \
+         coordinates are those of {crs}"
+    )]
+    HeightsElsewhere {
+        /// From the middle of the city to that of the heights, kilometres; NaN if that is nowhere.
+        distance_km: f64,
+        /// The reference system of the heights.
+        crs: String,
+    },
+    /// An added model that stands nowhere near the city.
+    #[error(
+        "the origin of the model, {x}, {y}, does not lie within 60 km of the city; its coordinates are \
+         those of {crs}"
+    )]
+    ModelElsewhere {
+        /// First coordinate.
+        x: f64,
+        /// Second coordinate.
+        y: f64,
+        /// The reference system of the city.
+        crs: String,
+    },
     /// More than can be numbered.
     #[error("more than {limit} {what}")]
     TooMany {

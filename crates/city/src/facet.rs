@@ -10,13 +10,16 @@ pub struct Facet {
     /// Whether both sides cast shadow: it is no part of a closed solid.
     pub is_two_sided: bool,
     /// The building that it belongs to, by its place in [`City::buildings`](crate::City), or
-    /// [`Facet::TERRAIN`].
+    /// [`Facet::TERRAIN`], or [`Facet::CONTEXT`].
     pub owner: u32,
 }
 
 impl Facet {
     /// The owner of what is ground and no building.
     pub const TERRAIN: u32 = u32::MAX;
+
+    /// The owner of what is neither: added models, and what stands on the ground of a surface model.
+    pub const CONTEXT: u32 = u32::MAX - 1;
 
     /// Whether it has three corners.
     #[must_use]

@@ -71,6 +71,15 @@ impl Origin {
         transformed(&self.local, &self.crs.proj, local).unwrap_or([f64::NAN; 2])
     }
 
+    /// The same origin for the coordinates of another map. Places that it cannot show are NaN.
+    #[must_use]
+    pub fn on_map(&self, crs: Crs) -> Self {
+        Self {
+            crs,
+            ..self.clone()
+        }
+    }
+
     /// The map's reference system.
     #[must_use]
     pub fn crs(&self) -> &Crs {

@@ -8,10 +8,12 @@ use ombra_scene::{Material, Object};
 use serde::Serialize;
 
 use crate::city::{CityInfo, city_info, is_city};
+use crate::elevation::{ElevationInfo, elevation_info, is_tiff};
 use crate::error::{Fault, FormatError};
 use crate::finding::Finding;
 use crate::gltf::{self, GltfInfo};
 use crate::image::{ImageInfo, image_info};
+use crate::input::Input;
 use crate::limits::Limits;
 use crate::mesh::{Model, ModelFormat, ending, read_model};
 use crate::scene::{SceneFile, read_scene};
@@ -31,6 +33,8 @@ pub enum FileInfo {
     Gltf(GltfInfo),
     /// A city.
     City(CityInfo),
+    /// A surface or terrain model.
+    Elevation(ElevationInfo),
 }
 
 /// What a model holds.
@@ -109,11 +113,24 @@ pub fn inspect(path: impl AsRef<Path>) -> Result<FileInfo, FormatError> {
         let file = read_scene(path, TriangleTest::default(), &Limits::default())?;
         return Ok(FileInfo::Scene(scene_info(file)));
     }
-    if is_city(path)? {
+    if begins(path, is_tiff)? {
+        return Ok(FileInfo::Elevation(elevation_info(path)?));
+    }
+    if begins(path, is_city)? {
         return Ok(FileInfo::City(city_info(path)?));
     }
     let info = image_info(path).map_err(|e| e.in_file(path))?;
     Ok(FileInfo::Image(info))
+}
+
+/// Whether the first bytes of a file, unpacked, are of a kind.
+pub(crate) fn begins(path: &Path, is_so: impl Fn(&[u8]) -> bool) -> Result<bool, FormatError> {
+    const HEAD: usize = 4096;
+    let peek = || -> Result<bool, FormatError> {
+        let mut source = Input::on_disk(path).source(&Limits::default())?;
+        Ok(is_so(source.peek(HEAD)?))
+    };
+    peek().map_err(|error| error.in_file(path))
 }
 
 fn model_info(model: &Model) -> ModelInfo {

@@ -2,7 +2,7 @@
 //!
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
 //! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), cities ([`city::read_city`]:
-//! GeoJSON, CityJSON), and pictures ([`read_texture`], [`read_image`]); out go
+//! GeoJSON, CityJSON), surface and terrain models ([`elevation::read_elevation`]: GeoTIFF), and pictures ([`read_texture`], [`read_image`]); out go
 //! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
 //! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
 //! [`scene::parse_scene`], which open no file at all.
@@ -25,6 +25,7 @@
 //! [`Finding`].
 
 pub mod city;
+pub mod elevation;
 pub mod minray;
 pub mod raster;
 pub mod scene;

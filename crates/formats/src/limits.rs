@@ -16,6 +16,9 @@ pub struct Limits {
     /// Most pixels of one image, and of all the textures together of one model or one scene file
     /// with its models. 67,108,864 by default, which is 8192 × 8192.
     pub image_pixels: u64,
+    /// Most pixels of one surface or terrain model. 268,435,456 by default, which is 16384 × 16384 and
+    /// takes 1 GiB.
+    pub raster_pixels: u64,
 }
 
 impl Default for Limits {
@@ -24,6 +27,7 @@ impl Default for Limits {
             decompressed_bytes: 4 << 30,
             line_bytes: 64 << 20,
             image_pixels: 8192 * 8192,
+            raster_pixels: 16384 * 16384,
         }
     }
 }

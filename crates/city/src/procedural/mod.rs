@@ -92,6 +92,8 @@ fn city(buildings: Vec<Building>) -> City {
         origin,
         buildings,
         terrain: Vec::new(),
+        is_terrain_all: false,
+        context: Vec::new(),
         ground: 0.0,
         findings: Vec::new(),
     }

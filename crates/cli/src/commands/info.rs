@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::bail;
 use ombra::formats::city::CityInfo;
+use ombra::formats::elevation::ElevationInfo;
 use ombra::formats::{FileInfo, GltfInfo, ImageInfo, ModelInfo, SceneInfo, inspect};
 
 use crate::args::InfoArgs;
@@ -37,6 +38,7 @@ fn words(info: &FileInfo) -> anyhow::Result<String> {
         FileInfo::Scene(info) => scene(info),
         FileInfo::Gltf(info) => gltf(info),
         FileInfo::City(info) => city(info),
+        FileInfo::Elevation(info) => elevation(info),
         other => Ok(serde_json::to_string_pretty(other)? + "\n"),
     }
 }
@@ -170,6 +172,44 @@ fn city(info: &CityInfo) -> anyhow::Result<String> {
             text,
             "heights     {min:.1} m to {max:.1} m, median {median:.1} m"
         )?;
+    }
+    notes(&mut text, &info.findings)?;
+    Ok(text)
+}
+
+fn elevation(info: &ElevationInfo) -> anyhow::Result<String> {
+    let mut text = String::new();
+    writeln!(text, "format      {}, heights", info.format)?;
+    writeln!(text, "size        {}x{} pixels", info.width, info.height)?;
+    writeln!(text, "numbers     {}", info.sample)?;
+    writeln!(text, "packed      {}", info.compression)?;
+    if info.more_images > 0 {
+        writeln!(
+            text,
+            "besides     {} more images, not used",
+            info.more_images
+        )?;
+    }
+    if let Some(crs) = &info.crs {
+        writeln!(text, "crs         {}", crs.escape_debug())?;
+    }
+    if let Some([wide, high]) = info.pixel {
+        writeln!(text, "pixel       {wide:.3} m x {high:.3} m")?;
+    }
+    if let Some([east, north]) = info.extent {
+        writeln!(text, "extent      {east:.1} m x {north:.1} m (east, north)")?;
+    }
+    if let Some([longitude, latitude]) = info.origin {
+        writeln!(
+            text,
+            "origin      {longitude:.6}, {latitude:.6} (longitude, latitude)"
+        )?;
+    }
+    if let Some([low, high]) = info.heights {
+        writeln!(text, "heights     {low:.2} m to {high:.2} m")?;
+    }
+    if let Some(blank) = info.blank {
+        writeln!(text, "blank       {blank} pixels without a height")?;
     }
     notes(&mut text, &info.findings)?;
     Ok(text)

@@ -10,6 +10,7 @@ mod minray;
 mod pictures;
 mod shadows;
 mod studied;
+mod terrain;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -8,7 +8,6 @@ use serde::Serialize;
 use super::{CityOptions, osm, read_named};
 use crate::error::FormatError;
 use crate::input::Input;
-use crate::limits::Limits;
 
 /// What a city holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,16 +47,10 @@ pub struct HeightsInfo {
 
 /// Whether a file begins as cities do: as JSON, as XML of OpenStreetMap or as its PBF. Other files
 /// that are JSON (glTF) are to be told by their names before.
-pub(crate) fn is_city(path: &Path) -> Result<bool, FormatError> {
-    const HEAD: usize = 4096;
-    let peek = || -> Result<bool, FormatError> {
-        let mut source = Input::on_disk(path).source(&Limits::default())?;
-        let head = source.peek(HEAD)?;
-        let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
-        let is_json = matches!(text.trim_ascii_start().first(), Some(b'{' | b'['));
-        Ok(is_json || osm::File::recognised(head).is_some())
-    };
-    peek().map_err(|error| error.in_file(path))
+pub(crate) fn is_city(head: &[u8]) -> bool {
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
+    let is_json = matches!(text.trim_ascii_start().first(), Some(b'{' | b'['));
+    is_json || osm::File::recognised(head).is_some()
 }
 
 /// Reads what a city holds, with the options that stand for nothing said.

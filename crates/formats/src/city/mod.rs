@@ -12,6 +12,9 @@
 //! - **OpenStreetMap** XML (`.osm`) and PBF (`.osm.pbf`): closed ways and multipolygons tagged
 //!   `building` or `building:part`. Parts stand in place of the outline that they lie in.
 //!
+//! - **GeoTIFF**: a surface model ([`elevation`](crate::elevation)), of which all is ground, roofs as
+//!   well; with terrain below it see [`City::of_surface`].
+//!
 //! Which of them a file is, its content says and not its name; each may be packed with gzip.
 //!
 //! ```no_run
@@ -30,25 +33,29 @@ mod footprint;
 mod geojson;
 mod info;
 mod json;
+mod model;
 mod osm;
 mod polygon_list;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use std::path::Path;
 
 use ombra_city::heights::Heights;
-use ombra_city::{City, CityError, Crs, Draft};
+use ombra_city::{City, CityError, Crs, Draft, Extent};
 
+use crate::elevation;
 use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
 pub use info::{CityInfo, HeightsInfo};
 pub(crate) use info::{city_info, is_city};
 use json::Kind;
+pub use model::{CityModel, Up, read_city_model};
 
 /// What can be read, as messages have it.
-const KNOWN: &str = "GeoJSON, CityJSON, OpenStreetMap (XML and PBF) and lists of polygons";
+const KNOWN: &str =
+    "GeoJSON, CityJSON, OpenStreetMap (XML and PBF), lists of polygons and heights as GeoTIFF";
 
 /// How a city is to be read.
 #[derive(Clone, Debug, Default)]
@@ -99,11 +106,21 @@ fn read_named(
         if bytes.is_empty() {
             return Err(FormatError::file(Fault::Empty));
         }
+        if elevation::is_tiff(&bytes) {
+            return of_surface(&bytes, options).map(|city| ("GeoTIFF", city));
+        }
         let format = Format::of(&bytes)?;
         let city = format.read(options)?.finish().map_err(unplaceable)?;
         Ok((format.name(), city))
     };
     read().map_err(|error| error.in_file(input.name()))
+}
+
+fn of_surface(bytes: &[u8], options: &CityOptions) -> Result<City, FormatError> {
+    let surface = elevation::parse(bytes, options.crs.as_ref(), &options.limits)?;
+    let city = City::of_surface(&surface.field, None, Extent::EVERYWHERE).map_err(unplaceable)?;
+    let findings = surface.findings.into_iter().chain(city.findings).collect();
+    Ok(City { findings, ..city })
 }
 
 /// What a file is, by its content.

@@ -7,13 +7,16 @@ use clap::{Args, ValueEnum};
 use ombra::city::Crs;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
+use super::site::SurroundingsArgs;
+
 /// How many minutes each place on the ground of a city lies in shadow
 ///
 /// Over one day or many, within hours by the clock, by the sun, or all that the sun is up. Minutes are exact:
 /// no instants are sampled, it is worked out when each wall begins and ends to cover the sun.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ShadowsArgs {
-    /// A city: GeoJSON, CityJSON, OpenStreetMap (.osm, .osm.pbf), or `demo`, which is built in
+    /// A city: GeoJSON, CityJSON, OpenStreetMap (.osm, .osm.pbf), a surface model (GeoTIFF), or `demo`, which is
+    /// built in
     pub(crate) city: String,
 
     /// Where to write minutes of shadow as a GeoTIFF (.tif)
@@ -47,6 +50,9 @@ pub(crate) struct ShadowsArgs {
     /// How tall a building is that does not say so, in metres [default: it is left out]
     #[arg(long, value_name = "METRES", value_parser = metres)]
     pub(crate) default_height: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) surroundings: SurroundingsArgs,
 
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
@@ -226,7 +232,7 @@ fn step(text: &str) -> Result<f64, String> {
     }
 }
 
-fn crs(text: &str) -> Result<Crs, String> {
+pub(super) fn crs(text: &str) -> Result<Crs, String> {
     Crs::parse(text).map_err(|error| error.to_string())
 }
 

@@ -4,6 +4,7 @@ mod args;
 mod demo;
 mod measure;
 mod output;
+mod site;
 mod when;
 
 use std::io::{self, Write as _};
@@ -14,15 +15,15 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use ombra::accrual::Tiles;
-use ombra::city::{City, Facet, Grid};
+use ombra::city::{City, Grid, Origin};
 use ombra::formats::can_write_whole;
-use ombra::formats::city::{CityOptions, read_city};
 use ombra::pipeline::Cpu;
 use ombra::sun::Place;
 
 pub(crate) use args::ShadowsArgs;
 use measure::{Measured, measure};
 use output::{Statistics, summary};
+use site::Site;
 use when::When;
 
 use super::Talk;
@@ -68,18 +69,22 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
 
     let begun = Instant::now();
-    let city = cpu.install(|| load(args))?;
+    let site = cpu.install(|| Site::read(args))?;
+    let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
+    let when = cpu.install(|| When::new(&args.when, place, args.step))?;
+    let grid = match args.area {
+        Some(area) => grid_over(area, args.cell, site.origin()),
+        None => site.grid(args.cell)?,
+    };
+    let (city, reach) = cpu.install(|| site.city(&grid, when.lowest_altitude()))?;
     for finding in &city.findings {
         talk.say(&format!("{}: {finding}", args.city));
     }
-    let place = Place::new(city.origin.latitude(), city.origin.longitude(), 0.0)?;
-    let when = cpu.install(|| When::new(&args.when, place, args.step))?;
     let facets = city.facets();
-    let grid = grid(args, &city, &facets)?;
     let tiles = cpu.install(|| Tiles::on_ground(&city, &grid));
     if tiles.is_empty() {
         bail!(
-            "{}: no place of the grid lies outside of buildings; take smaller cells",
+            "{}: no place of the grid lies on the ground outside of buildings; take smaller cells",
             args.city
         );
     }
@@ -97,6 +102,9 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         when.hours(),
         when.zone,
     ));
+    if !city.terrain.is_empty() {
+        talk.say(&surface_line(&city, reach));
+    }
 
     let measured = measure(args, &facets, &when, &tiles, cpu, stop);
     let Measured { minutes, done, .. } = &measured;
@@ -130,23 +138,18 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }))
 }
 
-fn load(args: &ShadowsArgs) -> anyhow::Result<City> {
-    if args.city == DEMO {
-        return Ok(ombra::city::demo_city());
-    }
-    let mut options = CityOptions {
-        crs: args.crs.clone(),
-        ..CityOptions::default()
+/// How much surface there is, for people.
+fn surface_line(city: &City, reach: f64) -> String {
+    let within = if reach.is_finite() {
+        format!("; shadows reach {:.1} km", reach / 1000.0)
+    } else {
+        "; the sun comes down to the horizon, so all of it counts".to_owned()
     };
-    options.heights.attribute.clone_from(&args.height_attribute);
-    options.heights.default = args.default_height;
-    Ok(read_city(&args.city, &options)?)
+    let (ground, above) = (city.terrain.len(), city.context.len());
+    format!("{ground} triangles of ground, {above} of what stands on it{within}")
 }
 
-fn grid(args: &ShadowsArgs, city: &City, facets: &[Facet]) -> anyhow::Result<Grid> {
-    let Some([west, south, east, north]) = args.area else {
-        return Ok(Grid::over(facets, args.cell)?);
-    };
+fn grid_over([west, south, east, north]: [f64; 4], cell: f64, origin: &Origin) -> Grid {
     // The sides of an area of the map need not be straight here: its corners and the middles of its sides.
     let (x, y) = (0.5 * (west + east), 0.5 * (south + north));
     let around = [
@@ -159,11 +162,11 @@ fn grid(args: &ShadowsArgs, city: &City, facets: &[Facet]) -> anyhow::Result<Gri
         [west, north],
         [west, y],
     ];
-    let local = around.map(|map| city.origin.to_local(map));
+    let local = around.map(|map| origin.to_local(map));
     if local.iter().flatten().any(|x| !x.is_finite()) {
         wrong_usage(&format!(
             "--area: the map of the city has no such place; its coordinates are those of {}",
-            city.origin.crs().name()
+            origin.crs().name()
         ));
     }
     let least = |axis: usize| local.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
@@ -173,8 +176,8 @@ fn grid(args: &ShadowsArgs, city: &City, facets: &[Facet]) -> anyhow::Result<Gri
             .map(|p| p[axis])
             .fold(f64::NEG_INFINITY, f64::max)
     };
-    let within = Grid::within([least(0), least(1)], [most(0), most(1)], args.cell);
-    Ok(within.unwrap_or_else(|error| wrong_usage(&format!("--area: {error}"))))
+    let within = Grid::within([least(0), least(1)], [most(0), most(1)], cell);
+    within.unwrap_or_else(|error| wrong_usage(&format!("--area: {error}")))
 }
 
 fn wrong_usage(message: &str) -> ! {

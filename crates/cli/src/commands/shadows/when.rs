@@ -84,6 +84,21 @@ impl When {
         self.spans.iter().map(Span::seconds).sum::<f64>() / 3600.0
     }
 
+    /// The least altitude of the sun in these hours, in radians, or a little less.
+    pub(super) fn lowest_altitude(&self) -> f64 {
+        const STEP: f64 = 600.0;
+        // Where the sun turns between two looks, as on a polar night, it is lower by no more than this.
+        const TURN: f64 = 3e-4;
+        let of_span = |span: &Span| {
+            let (_, middles) = span.middles(STEP);
+            let instants = middles.chain([span.start, span.end]);
+            let altitude = |instant| self.sky.direction(instant)[2].clamp(-1.0, 1.0).asin();
+            instants.map(altitude).fold(f64::INFINITY, f64::min)
+        };
+        let lowest = self.spans.par_iter().map(of_span);
+        lowest.reduce(|| f64::INFINITY, f64::min) - TURN
+    }
+
     pub(super) fn sheets(&self) -> Vec<Sheet> {
         (self.spans.par_iter())
             .flat_map_iter(|&span| Sheet::cover(&self.sky, span))

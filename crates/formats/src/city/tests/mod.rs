@@ -13,7 +13,7 @@ use ombra_city::City;
 use super::{CityOptions, read_city_bytes};
 
 /// Data from outside the project; `None`, and a line that says so, where it is not there.
-pub(super) fn outside_data(name: &str) -> Option<PathBuf> {
+pub(crate) fn outside_data(name: &str) -> Option<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     let folder = std::env::var_os("OMBRA_TEST_DATA").map_or(beside, PathBuf::from);
     let path = folder.join(name);
