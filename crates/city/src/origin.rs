@@ -71,6 +71,18 @@ impl Origin {
         transformed(&self.local, &self.crs.proj, local).unwrap_or([f64::NAN; 2])
     }
 
+    /// As [`to_local`](Self::to_local), of a place in another reference system than the map's.
+    #[must_use]
+    pub fn to_local_from(&self, crs: &Crs, place: [f64; 2]) -> [f64; 2] {
+        transformed(&crs.proj, &self.local, place).unwrap_or([f64::NAN; 2])
+    }
+
+    /// Longitude and latitude (WGS 84, degrees) of a place `local` metres east and north of the origin.
+    #[must_use]
+    pub fn to_geographic(&self, local: [f64; 2]) -> [f64; 2] {
+        transformed(&self.local, &Crs::wgs84().proj, local).unwrap_or([f64::NAN; 2])
+    }
+
     /// The map's reference system.
     #[must_use]
     pub fn crs(&self) -> &Crs {

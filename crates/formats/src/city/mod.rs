@@ -25,12 +25,14 @@
 //! # Ok::<(), ombra_formats::FormatError>(())
 //! ```
 
+mod area;
 mod cityjson;
 mod footprint;
 mod geojson;
 mod info;
 mod json;
 mod osm;
+mod points;
 mod polygon_list;
 #[cfg(test)]
 mod tests;
@@ -43,9 +45,11 @@ use ombra_city::{City, CityError, Crs, Draft};
 use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
+pub use area::{AreaFile, read_area};
 pub use info::{CityInfo, HeightsInfo};
 pub(crate) use info::{city_info, is_city};
 use json::Kind;
+pub use points::{Point, PointFile, read_points};
 
 /// What can be read, as messages have it.
 const KNOWN: &str = "GeoJSON, CityJSON, OpenStreetMap (XML and PBF) and lists of polygons";
