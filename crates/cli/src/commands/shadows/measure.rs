@@ -9,6 +9,7 @@ use ombra::city::Facet;
 use ombra::pipeline::Cpu;
 
 use super::args::{Method, ShadowsArgs};
+use super::partial::Partial;
 use super::when::When;
 use crate::progress::Jobs;
 
@@ -16,8 +17,9 @@ use crate::progress::Jobs;
 pub(super) struct Measured {
     /// Minutes by place; NaN for those that were not reached.
     pub(super) minutes: Vec<f32>,
-    /// How many places were reached.
+    /// How many places were reached, and how many of them by an earlier run.
     pub(super) done: usize,
+    pub(super) resumed: usize,
     /// How long it took to make everything ready, and then.
     pub(super) build_seconds: f64,
     pub(super) seconds: f64,
@@ -33,6 +35,7 @@ pub(super) fn measure(
     tiles: &Tiles,
     cpu: &Cpu,
     stop: &AtomicBool,
+    kept: &mut Option<(Partial, Vec<f32>)>,
 ) -> Measured {
     let begun = Instant::now();
     match args.method {
@@ -40,7 +43,7 @@ pub(super) fn measure(
             let occluders = cpu.install(|| Occluders::new(facets));
             let exact = cpu.install(|| Exact::new(&occluders, &when.sheets()));
             let part = |which| cpu.install(|| exact.seconds_of(tiles, which));
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, kept, part)
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
@@ -49,7 +52,7 @@ pub(super) fn measure(
                 let places = &tiles.places()[tiles.range(which)];
                 cpu.install(|| sampled.seconds(&samples, places))
             };
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, kept, part)
         }
     }
 }
@@ -59,13 +62,19 @@ fn in_parts(
     tiles: &Tiles,
     build_seconds: f64,
     stop: &AtomicBool,
+    kept: &mut Option<(Partial, Vec<f32>)>,
     part: impl Fn(std::ops::Range<usize>) -> Vec<f64>,
 ) -> Measured {
     let bar = Jobs::new(!args.quiet && io::stderr().is_terminal());
     let total = tiles.places().len();
     let mut minutes = Vec::with_capacity(total);
+    if let Some((_, before)) = kept {
+        minutes.append(before);
+    }
+    let resumed = minutes.len();
     let begun = Instant::now();
-    let (mut tile, mut count) = (0, 64);
+    let mut tile = tiles.before(resumed);
+    let mut count = 64;
     while tile < tiles.len() && !stop.load(Ordering::Relaxed) {
         let begun = Instant::now();
         let end = tiles.len().min(tile + count);
@@ -78,6 +87,9 @@ fn in_parts(
         // So many that a part takes about as long as it should.
         let faster = PART / begun.elapsed().as_secs_f64().max(1e-6);
         count = ((count as f64 * faster.clamp(0.5, 4.0)) as usize).max(64);
+        if let Some((partial, _)) = kept {
+            partial.keep_sometimes(&minutes);
+        }
         bar.update(minutes.len() as u64, total as u64, "places");
     }
     bar.finish();
@@ -86,6 +98,7 @@ fn in_parts(
     Measured {
         minutes,
         done,
+        resumed,
         build_seconds,
         seconds: begun.elapsed().as_secs_f64(),
     }
