@@ -27,12 +27,24 @@ pub struct AreaFile {
 /// # Errors
 /// When the file cannot be opened, is not GeoJSON, or has no polygon.
 pub fn read_area(path: impl AsRef<Path>, limits: &Limits) -> Result<AreaFile, FormatError> {
-    let path = path.as_ref();
-    let read = || {
-        let bytes = Input::on_disk(path).source(limits)?.rest()?;
-        of_bytes(&bytes)
-    };
-    read().map_err(|error: FormatError| error.in_file(path))
+    read(&Input::on_disk(path.as_ref()), limits)
+}
+
+/// The same for a file in memory. Its name is for messages only.
+///
+/// # Errors
+/// As those of [`read_area`].
+pub fn read_area_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    limits: &Limits,
+) -> Result<AreaFile, FormatError> {
+    read(&Input::in_memory(name.as_ref(), bytes), limits)
+}
+
+fn read(input: &Input<'_>, limits: &Limits) -> Result<AreaFile, FormatError> {
+    let read = || of_bytes(&input.source(limits)?.rest()?);
+    read().map_err(|error: FormatError| error.in_file(input.name()))
 }
 
 fn of_bytes(bytes: &[u8]) -> Result<AreaFile, FormatError> {

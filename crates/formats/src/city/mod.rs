@@ -45,11 +45,11 @@ use ombra_city::{City, CityError, Crs, Draft};
 use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
-pub use area::{AreaFile, read_area};
+pub use area::{AreaFile, read_area, read_area_bytes};
 pub use info::{CityInfo, HeightsInfo};
 pub(crate) use info::{city_info, is_city};
 use json::Kind;
-pub use points::{Point, PointFile, read_points};
+pub use points::{Point, PointFile, read_points, read_points_bytes};
 
 /// What can be read, as messages have it.
 const KNOWN: &str = "GeoJSON, CityJSON, OpenStreetMap (XML and PBF) and lists of polygons";

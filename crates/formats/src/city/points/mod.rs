@@ -61,12 +61,24 @@ impl PointFile {
 /// When the file cannot be opened or is neither, when a coordinate is no number or a height is not 0 to 10 km, when
 /// there is no point at all, or more than [`MAX_PLACES`].
 pub fn read_points(path: impl AsRef<Path>, limits: &Limits) -> Result<PointFile, FormatError> {
-    let path = path.as_ref();
-    let read = || {
-        let bytes = Input::on_disk(path).source(limits)?.rest()?;
-        of_bytes(&bytes)
-    };
-    read().map_err(|error: FormatError| error.in_file(path))
+    read(&Input::on_disk(path.as_ref()), limits)
+}
+
+/// The same for a file in memory. Its name is for messages only.
+///
+/// # Errors
+/// As those of [`read_points`].
+pub fn read_points_bytes(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    limits: &Limits,
+) -> Result<PointFile, FormatError> {
+    read(&Input::in_memory(name.as_ref(), bytes), limits)
+}
+
+fn read(input: &Input<'_>, limits: &Limits) -> Result<PointFile, FormatError> {
+    let read = || of_bytes(&input.source(limits)?.rest()?);
+    read().map_err(|error: FormatError| error.in_file(input.name()))
 }
 
 fn of_bytes(bytes: &[u8]) -> Result<PointFile, FormatError> {
