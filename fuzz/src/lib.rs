@@ -7,7 +7,7 @@
 use std::fmt::Display;
 
 use ombra_accel::{Geometry, Level, Primitives as _, Traversable as _, TriangleTree};
-use ombra_formats::city::{CityOptions, read_city_bytes};
+use ombra_formats::city::{CityOptions, read_area_bytes, read_city_bytes, read_points_bytes};
 use ombra_formats::minray::{parse_contest, read_contest_picture_bytes};
 use ombra_formats::scene::parse_scene;
 use ombra_formats::{
@@ -23,6 +23,7 @@ pub type Target = (&'static str, fn(&[u8]));
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
+    ("area", area),
     ("city", city),
     ("contest", contest),
     ("contest_picture", contest_picture),
@@ -35,6 +36,7 @@ pub const TARGETS: &[Target] = &[
     ("obj", obj),
     ("ply", ply),
     ("png", png),
+    ("points", points),
     ("scene", scene),
     ("stl", stl),
     ("structure", structure),
@@ -73,6 +75,41 @@ pub fn city(data: &[u8]) {
     }
     for facet in city.facets() {
         assert!(facet.corners.iter().all(|p| p.is_finite()), "{facet:?}");
+    }
+}
+
+/// Reads the polygons of a study area, and asks which places lie in it.
+pub fn area(data: &[u8]) {
+    let area = match read_area_bytes("a", data, &limits()) {
+        Ok(area) => area,
+        Err(error) => return check_error(&error),
+    };
+    area.findings.iter().for_each(|finding| check_line(finding));
+    assert!(!area.polygons.is_empty());
+    let origin = ombra_city::Origin::new(ombra_city::Crs::wgs84(), [4.36, 52.01]);
+    let origin = origin.expect("Delft is on the map");
+    match ombra_city::StudyArea::new(&origin, &area.crs, &area.polygons) {
+        Ok(study) => {
+            let [low, high] = study.bounds();
+            assert!((0..2).all(|k| low[k] < high[k]));
+            assert!(!study.contains([high[0] + 1.0, high[1]]));
+            let _ = study.contains([0, 1].map(|k| 0.5 * (low[k] + high[k])));
+        }
+        Err(error) => check_line(&error),
+    }
+}
+
+/// Reads points: GeoJSON or a table.
+pub fn points(data: &[u8]) {
+    let file = match read_points_bytes("a", data, &limits()) {
+        Ok(file) => file,
+        Err(error) => return check_error(&error),
+    };
+    file.findings.iter().for_each(|finding| check_line(finding));
+    assert!(!file.points.is_empty());
+    for point in &file.points {
+        assert!(point.at.iter().all(|x| x.is_finite()), "{point:?}");
+        assert!((0.0..=10_000.0).contains(&point.height), "{point:?}");
     }
 }
 

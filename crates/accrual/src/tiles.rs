@@ -11,8 +11,8 @@ use crate::tile::PLACES;
 #[derive(Clone, Debug, Default)]
 pub struct Tiles {
     places: Vec<Point3>,
-    /// Which cell of a grid each place is.
-    cells: Vec<u32>,
+    /// Which cell of a grid, or which place of a list, each of them is.
+    indices: Vec<u32>,
     /// Where each tile ends among the places.
     ends: Vec<usize>,
 }
@@ -25,9 +25,10 @@ const SIDE: u32 = 4;
 const SQUARE: u32 = 8;
 
 impl Tiles {
-    /// The places of a grid that lie on the ground of a city, outside of its buildings.
+    /// The places of a grid that lie on the ground of a city, outside of its buildings, and are to be `kept`: it is
+    /// asked with local metres east and north.
     #[must_use]
-    pub fn on_ground(city: &City, grid: &Grid) -> Self {
+    pub fn on_ground(city: &City, grid: &Grid, kept: impl Fn([f64; 2]) -> bool + Sync) -> Self {
         let (ground, inside) = (Ground::new(city), Inside::new(city));
         let across = grid.width.div_ceil(SIDE * SQUARE);
         let down = grid.height.div_ceil(SIDE * SQUARE);
@@ -41,7 +42,10 @@ impl Tiles {
                 for tile in 0..SQUARE * SQUARE {
                     let column = (column * SQUARE + tile % SQUARE) * SIDE;
                     let row = (row * SQUARE + tile / SQUARE) * SIDE;
-                    part.add(grid, column, row, &ground, &inside);
+                    part.add(grid, column, row, |at| {
+                        let place = kept(at).then(|| ground.at(at))??;
+                        (!inside.contains(place)).then_some(place)
+                    });
                 }
                 part
             })
@@ -50,21 +54,53 @@ impl Tiles {
         for part in parts {
             let before = all.places.len();
             all.places.extend(part.places);
-            all.cells.extend(part.cells);
+            all.indices.extend(part.indices);
             all.ends
                 .extend(part.ends.into_iter().map(|end| before + end));
         }
         all
     }
 
-    fn add(&mut self, grid: &Grid, column: u32, row: u32, ground: &Ground, inside: &Inside) {
+    /// A list of places, in tiles that are full but for the last one. Which are near one another is found
+    /// out: the list is halved, again and again, across the longest side of the box around it.
+    #[must_use]
+    pub fn near(places: &[Point3]) -> Self {
+        // A place that is nowhere comes last, so that it parts no others.
+        let (mut indices, nowhere): (Vec<u32>, Vec<u32>) =
+            (0..places.len() as u32).partition(|&index| {
+                places[index as usize]
+                    .to_array()
+                    .iter()
+                    .all(|x| x.is_finite())
+            });
+        halve(places, &mut indices);
+        indices.extend(nowhere);
+        let ends = (0..places.len()).step_by(PLACES);
+        Self {
+            places: indices
+                .iter()
+                .map(|&index| places[index as usize])
+                .collect(),
+            ends: ends
+                .map(|start| (start + PLACES).min(places.len()))
+                .collect(),
+            indices,
+        }
+    }
+
+    fn add(
+        &mut self,
+        grid: &Grid,
+        column: u32,
+        row: u32,
+        place: impl Fn([f64; 2]) -> Option<Point3>,
+    ) {
         let before = self.places.len();
         for row in row..(row + SIDE).min(grid.height) {
             for column in column..(column + SIDE).min(grid.width) {
-                let place = ground.at(grid.centre(column, row));
-                if let Some(place) = place.filter(|&place| !inside.contains(place)) {
+                if let Some(place) = place(grid.centre(column, row)) {
                     self.places.push(place);
-                    self.cells.push(row * grid.width + column);
+                    self.indices.push(row * grid.width + column);
                 }
             }
         }
@@ -83,7 +119,7 @@ impl Tiles {
             let tile = (2 * k + 1) * self.len() / (2 * count);
             let range = self.range(tile..tile + 1);
             some.places.extend(&self.places[range.clone()]);
-            some.cells.extend(&self.cells[range]);
+            some.indices.extend(&self.indices[range]);
             some.ends.push(some.places.len());
         }
         some
@@ -95,10 +131,10 @@ impl Tiles {
         &self.places
     }
 
-    /// Which cell of the grid each place is, row by row from the north.
+    /// Which cell of the grid each place is, row by row from the north; or which place of the list.
     #[must_use]
-    pub fn cells(&self) -> &[u32] {
-        &self.cells
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
     }
 
     /// How many tiles.
@@ -120,11 +156,58 @@ impl Tiles {
         before(tiles.start)..before(tiles.end)
     }
 
+    /// How many tiles lie wholly among the first so many places.
+    #[must_use]
+    pub fn before(&self, places: usize) -> usize {
+        self.ends.partition_point(|&end| end <= places)
+    }
+
     /// The places of some tiles, a list each: none is longer than sixteen.
     pub(crate) fn lists(&self, tiles: std::ops::Range<usize>) -> Vec<&[Point3]> {
         let list = |tile| &self.places[self.range(tile..tile + 1)];
         let lists: Vec<&[Point3]> = tiles.map(list).collect();
         debug_assert!(lists.iter().all(|list| list.len() <= PLACES));
         lists
+    }
+}
+
+/// Lists longer than this are halved by two threads.
+const ALONE: usize = 1 << 14;
+
+/// Puts places into an order in which those in a tile lie near one another, and tiles near those that come before.
+fn halve(places: &[Point3], indices: &mut [u32]) {
+    if indices.len() <= PLACES {
+        return;
+    }
+    let at = |index: u32| places[index as usize].to_array();
+    let nothing = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+    let [least, most] = indices.iter().fold(nothing, |[least, most], &index| {
+        let at = at(index);
+        [
+            [0, 1, 2].map(|k| f32::min(least[k], at[k])),
+            [0, 1, 2].map(|k| f32::max(most[k], at[k])),
+        ]
+    });
+    let side = |axis: usize| most[axis] - least[axis];
+    let axis = (1..3).fold(0, |axis, other| {
+        if side(other) > side(axis) {
+            other
+        } else {
+            axis
+        }
+    });
+    // In whole tiles.
+    let middle = (indices.len() / 2).next_multiple_of(PLACES);
+    let key = |index: u32| (at(index)[axis], index);
+    indices.select_nth_unstable_by(middle, |&a, &b| {
+        let ((x, a), (y, b)) = (key(a), key(b));
+        x.total_cmp(&y).then(a.cmp(&b))
+    });
+    let (one, other) = indices.split_at_mut(middle);
+    if one.len() > ALONE {
+        rayon::join(|| halve(places, one), || halve(places, other));
+    } else {
+        halve(places, one);
+        halve(places, other);
     }
 }

@@ -146,15 +146,20 @@ fn push_faces(facets: &mut Vec<Facet>, faces: &Faces, [low, bottom]: [f32; 2], o
 }
 
 /// A face cut into pieces, seen along the axis that its plane faces most.
-fn face_pieces(face: &Face) -> Vec<[u32; 4]> {
+pub(crate) fn face_pieces(face: &Face) -> Vec<[u32; 4]> {
     let Some(plane) = Plane::of(&face.rings[0]) else {
         return Vec::new();
     };
     let rings: Vec<Vec<[f64; 2]>> = (face.rings.iter())
         .map(|ring| ring.iter().map(|&p| plane.seen(p)).collect())
         .collect();
-    let is_flat = face.corners().all(|p| plane.distance(p).abs() <= FLAT);
-    pieces(&rings, is_flat)
+    pieces(&rings, is_flat(face))
+}
+
+/// Whether all corners lie in one plane, near enough.
+pub(crate) fn is_flat(face: &Face) -> bool {
+    Plane::of(&face.rings[0])
+        .is_some_and(|plane| face.corners().all(|p| plane.distance(p).abs() <= FLAT))
 }
 
 /// The plane of a ring: its normal by Newell's method (Sutherland, Sproull, Schumacker 1974).

@@ -66,4 +66,6 @@ pub use inside::Inside;
 pub use origin::Origin;
 pub use polygon::Polygon;
 pub use procedural::{demo_city, procedural_city};
-pub use receiver::{Grid, GridError, MAX_CELLS};
+pub use receiver::{
+    FaceKind, FacePlace, Grid, GridError, MAX_CELLS, MAX_PLACES, STAND_OFF, StudyArea, StudyError,
+};

@@ -80,6 +80,12 @@ impl Origin {
         }
     }
 
+    /// Longitude and latitude (WGS 84, degrees) of a place `local` metres east and north of the origin.
+    #[must_use]
+    pub fn to_geographic(&self, local: [f64; 2]) -> [f64; 2] {
+        transformed(&self.local, &Crs::wgs84().proj, local).unwrap_or([f64::NAN; 2])
+    }
+
     /// The map's reference system.
     #[must_use]
     pub fn crs(&self) -> &Crs {

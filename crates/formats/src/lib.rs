@@ -2,8 +2,10 @@
 //!
 //! In come scene files ([`scene::read_scene`]), models, as triangle meshes with Whitted's materials
 //! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), cities ([`city::read_city`]:
-//! GeoJSON, CityJSON), surface and terrain models ([`elevation::read_elevation`]: GeoTIFF), and pictures ([`read_texture`], [`read_image`]); out go
-//! pictures ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM). [`inspect`] says what a file holds.
+//! GeoJSON, CityJSON), points and areas ([`city::read_points`], [`city::read_area`]), surface and terrain models
+//! ([`elevation::read_elevation`]: GeoTIFF), and pictures ([`read_texture`], [`read_image`]); out go pictures
+//! ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM), maps ([`raster`]) and places ([`places`]). [`inspect`] says
+//! what a file holds.
 //! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
 //! [`scene::parse_scene`], which open no file at all.
 //!
@@ -27,6 +29,7 @@
 pub mod city;
 pub mod elevation;
 pub mod minray;
+pub mod places;
 pub mod raster;
 pub mod scene;
 pub mod sha256;

@@ -34,12 +34,13 @@ pub fn of_bytes(bytes: &[u8]) -> String {
     content.hexadecimal()
 }
 
-/// What has been read so far.
-#[derive(Default)]
-pub(crate) struct Content(Sha256);
+/// The SHA-256 of bytes that come a piece at a time.
+#[derive(Clone, Debug, Default)]
+pub struct Content(Sha256);
 
 impl Content {
-    pub(crate) fn take(&mut self, bytes: &[u8]) {
+    /// Takes the next piece.
+    pub fn take(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
     }
 
@@ -54,7 +55,9 @@ impl Content {
         Ok(())
     }
 
-    pub(crate) fn hexadecimal(self) -> String {
+    /// The hash of all that was taken, in hexadecimal.
+    #[must_use]
+    pub fn hexadecimal(self) -> String {
         let bytes = self.0.finalize();
         bytes.iter().map(|byte| format!("{byte:02x}")).collect()
     }

@@ -1,6 +1,6 @@
 //! Files that are either whole or not there.
 
-use std::io::Write as _;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use crate::error::FormatError;
@@ -12,10 +12,22 @@ use crate::image::{file_beside, write_error};
 /// When the folder does not exist or cannot be written into, or the path is a folder; what was there
 /// before is still there then.
 pub fn write_whole(path: impl AsRef<Path>, content: &[u8]) -> Result<(), FormatError> {
+    write_whole_with(path, |file| file.write_all(content))
+}
+
+/// The same for content that is not in memory at once: `write` writes it.
+pub(crate) fn write_whole_with(
+    path: impl AsRef<Path>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), FormatError> {
     let path = path.as_ref();
     let write = || {
         let mut beside = file_beside(path)?;
-        beside.write_all(content).map_err(write_error)?;
+        let mut file = BufWriter::with_capacity(1 << 18, beside.as_file_mut());
+        write(&mut file)
+            .and_then(|()| file.flush())
+            .map_err(write_error)?;
+        drop(file);
         beside
             .persist(path)
             .map(drop)

@@ -22,7 +22,7 @@ fn days(city: &City, hours: &Hours, first: Date, count: usize) -> Vec<Vec<Sheet>
 }
 
 fn tiles(city: &City, cell: f64) -> Tiles {
-    Tiles::on_ground(city, &Grid::over(&city.facets(), cell).unwrap())
+    Tiles::on_ground(city, &Grid::over(&city.facets(), cell).unwrap(), |_| true)
 }
 
 fn up(days: &[Vec<Sheet>]) -> f64 {

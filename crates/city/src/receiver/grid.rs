@@ -7,6 +7,9 @@ use crate::Facet;
 /// The most cells of a grid: 268 million.
 pub const MAX_CELLS: u64 = 1 << 28;
 
+/// The most places on faces, and in a list of places: 67 million.
+pub const MAX_PLACES: u64 = 1 << 26;
+
 /// Square cells over the ground, in local metres, rows from north to south. A place is the middle of its
 /// cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +49,9 @@ pub enum GridError {
         /// From north to south.
         height: f64,
     },
+    /// More places on faces than a machine should be asked for.
+    #[error("more than {MAX_PLACES} places: take larger cells or a smaller city")]
+    ManyPlaces,
 }
 
 impl Grid {

@@ -42,8 +42,17 @@ fn wrong_usage(command: &str, message: &str) -> ! {
         .exit()
 }
 
-/// The command as it was typed, with quotes around words that need them.
+/// The command that gives the same files again: as it was typed, with quotes around words that need them, and
+/// without what changes nothing in them.
 fn command() -> String {
+    rerun(
+        std::env::args_os()
+            .skip(1)
+            .map(|word| word.to_string_lossy().into_owned()),
+    )
+}
+
+fn rerun(words: impl Iterator<Item = String>) -> String {
     let quoted = |word: String| {
         let plain = |c: char| c.is_alphanumeric() || "-_./,=+:".contains(c);
         if !word.is_empty() && word.chars().all(plain) {
@@ -52,10 +61,29 @@ fn command() -> String {
             format!("'{}'", word.replace('\'', r"'\''"))
         }
     };
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| quoted(word.to_string_lossy().into_owned()));
-    std::iter::once("ombra".to_owned())
-        .chain(words)
-        .collect::<Vec<_>>()
-        .join(" ")
+    let mut all = vec!["ombra".to_owned()];
+    let mut is_number_of_threads = false;
+    for word in words {
+        let is_left_out = is_number_of_threads
+            || ["--resume", "--quiet", "--json", "--threads"].contains(&&*word)
+            || word.starts_with("--threads=");
+        is_number_of_threads = word == "--threads";
+        if !is_left_out {
+            all.push(quoted(word));
+        }
+    }
+    all.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_changes_no_byte_is_not_told() {
+        let of = |text: &str| super::rerun(text.split('|').map(str::to_owned));
+        assert_eq!(
+            of("shadows|my city.json|--threads|3|-o|a.tif|--resume|--threads=2|--cell|2"),
+            "ombra shadows 'my city.json' -o a.tif --cell 2"
+        );
+        assert_eq!(of("shadows|it's|--threads"), r"ombra shadows 'it'\''s'");
+    }
 }

@@ -13,7 +13,7 @@ const HIGHEST_GROUND: f64 = 9000.0;
 /// have any.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outline {
-    rings: Vec<Vec<[f64; 2]>>,
+    pub(super) rings: Vec<Vec<[f64; 2]>>,
     lowest: Option<f64>,
 }
 

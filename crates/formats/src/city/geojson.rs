@@ -15,36 +15,67 @@ use crate::error::{FormatError, shown};
 pub(super) fn read(text: &[u8], kind: &str, options: &CityOptions) -> Result<Draft, FormatError> {
     // What the coordinates mean may be said after them: until then they are taken for WGS 84.
     let mut draft = Draft::new(options.crs.clone().unwrap_or_else(Crs::wgs84));
-    let crs = if kind == "FeatureCollection" {
-        let each = Each(|index, element| {
-            feature(&mut draft, format!("feature {index}"), &element, options);
+    let mut notes = std::mem::take(&mut draft.notes);
+    let crs = each_feature(text, kind, &mut notes, |feature, notes| {
+        std::mem::swap(&mut draft.notes, notes);
+        of_geometry(&mut draft, &feature, options);
+        std::mem::swap(&mut draft.notes, notes);
+    })?;
+    if options.crs.is_none()
+        && let Some(crs) = crs_of(crs.as_ref(), &mut notes)?
+    {
+        draft.crs = crs;
+    }
+    draft.notes = notes;
+    Ok(draft)
+}
+
+/// A geometry and what is said of it.
+pub(super) struct Feature<'a> {
+    /// Where in the file it is, as messages have it.
+    pub(super) place: &'a str,
+    pub(super) id: Option<String>,
+    pub(super) properties: &'a Map<String, Value>,
+    pub(super) geometry: &'a Value,
+}
+
+/// Hands on what has a geometry; of the rest it is noted that it is left out. Gives the `crs` member.
+pub(super) fn each_feature(
+    text: &[u8],
+    kind: &str,
+    notes: &mut Notes,
+    mut each: impl FnMut(Feature<'_>, &mut Notes),
+) -> Result<Option<Value>, FormatError> {
+    if kind == "FeatureCollection" {
+        let in_turn = Each(|index, element| {
+            feature(&format!("feature {index}"), &element, notes, &mut each);
         });
-        let collection = parse_into(text, Collection(each))?;
+        let collection = parse_into(text, Collection(in_turn))?;
         if !collection.has_features {
             return Err(wrong("FeatureCollection", "\"features\" is missing"));
         }
-        collection.crs
-    } else {
-        let whole: Value = parse(text)?;
-        if kind == "Feature" {
-            feature(&mut draft, "feature".to_owned(), &whole, options);
-        } else {
-            of_geometry(
-                &mut draft,
-                "geometry".to_owned(),
-                &whole,
-                (None, &Map::new()),
-                options,
-            );
-        }
-        whole.get("crs").cloned()
-    };
-    if options.crs.is_none()
-        && let Some(crs) = crs.and_then(|crs| crs_name(&crs, &mut draft.notes))
-    {
-        draft.crs = Crs::parse(&crs).map_err(unplaceable)?;
+        return Ok(collection.crs);
     }
-    Ok(draft)
+    let whole: Value = parse(text)?;
+    if kind == "Feature" {
+        feature("feature", &whole, notes, &mut each);
+    } else {
+        let alone = Feature {
+            place: "geometry",
+            id: None,
+            properties: &Map::new(),
+            geometry: &whole,
+        };
+        each(alone, notes);
+    }
+    Ok(whole.get("crs").cloned())
+}
+
+/// The reference system that the `crs` member of a file names.
+pub(super) fn crs_of(crs: Option<&Value>, notes: &mut Notes) -> Result<Option<Crs>, FormatError> {
+    let name = crs.and_then(|crs| crs_name(crs, notes));
+    name.map(|name| Crs::parse(&name).map_err(unplaceable))
+        .transpose()
 }
 
 /// The members of a collection that matter; its features go where the visitor puts them.
@@ -92,39 +123,50 @@ impl<'de, F: FnMut(usize, Value)> Visitor<'de> for Collection<F> {
     }
 }
 
-fn feature(draft: &mut Draft, place: String, feature: &Value, options: &CityOptions) {
+fn feature(
+    place: &str,
+    feature: &Value,
+    notes: &mut Notes,
+    each: &mut impl FnMut(Feature<'_>, &mut Notes),
+) {
     let Some(members) = feature.as_object() else {
-        draft.notes.add(&place, "no object: left out");
+        notes.add(place, "no object: left out");
         return;
     };
     let nothing = Map::new();
     let properties = members.get("properties").and_then(Value::as_object);
     let properties = properties.unwrap_or(&nothing);
     match members.get("geometry") {
-        None | Some(Value::Null) => draft.notes.add(&place, "no geometry: left out"),
+        None | Some(Value::Null) => notes.add(place, "no geometry: left out"),
         Some(geometry) => {
             let id = name(members.get("id"));
-            of_geometry(draft, place, geometry, (id, properties), options);
+            let feature = Feature {
+                place,
+                id,
+                properties,
+                geometry,
+            };
+            each(feature, notes);
         }
     }
 }
 
 /// A building of all polygons in a geometry.
-fn of_geometry(
-    draft: &mut Draft,
-    place: String,
-    geometry: &Value,
-    (id, properties): (Option<String>, &Map<String, Value>),
-    options: &CityOptions,
-) {
+fn of_geometry(draft: &mut Draft, feature: &Feature<'_>, options: &CityOptions) {
     let mut outlines = Vec::new();
-    polygons(geometry, &place, &mut outlines, &mut draft.notes);
+    polygons(
+        feature.geometry,
+        feature.place,
+        &mut outlines,
+        &mut draft.notes,
+    );
     if !outlines.is_empty() {
+        let name = (feature.id.clone(), feature.place.to_owned());
         add(
             draft,
             outlines,
-            (id, place),
-            properties,
+            name,
+            feature.properties,
             Closing::Asked,
             options,
         );
@@ -132,7 +174,12 @@ fn of_geometry(
 }
 
 /// The polygons in a geometry. Collections in collections end where the parser's patience did.
-fn polygons(geometry: &Value, place: &str, outlines: &mut Vec<Outline>, notes: &mut Notes) {
+pub(super) fn polygons(
+    geometry: &Value,
+    place: &str,
+    outlines: &mut Vec<Outline>,
+    notes: &mut Notes,
+) {
     let mut polygon = |rings: &Value, notes: &mut Notes| match Outline::read(rings) {
         Ok(outline) => outlines.push(outline),
         Err(what) => notes.add(place, format!("polygon {what}: left out")),

@@ -28,6 +28,7 @@
 //! # Ok::<(), ombra_formats::FormatError>(())
 //! ```
 
+mod area;
 mod cityjson;
 mod footprint;
 mod geojson;
@@ -35,6 +36,7 @@ mod info;
 mod json;
 mod model;
 mod osm;
+mod points;
 mod polygon_list;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -48,10 +50,12 @@ use crate::elevation;
 use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
+pub use area::{AreaFile, read_area, read_area_bytes};
 pub use info::{CityInfo, HeightsInfo};
 pub(crate) use info::{city_info, is_city};
 use json::Kind;
 pub use model::{CityModel, Up, read_city_model};
+pub use points::{Point, PointFile, read_points, read_points_bytes};
 
 /// What can be read, as messages have it.
 const KNOWN: &str =

@@ -1,15 +1,16 @@
 //! What may be asked of `ombra shadows`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use ombra::city::Crs;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
+use super::places::PlacesArgs;
 use super::site::SurroundingsArgs;
 
-/// How many minutes each place on the ground of a city lies in shadow
+/// How many minutes each place of a city lies in shadow: of the ground, on roofs, on facades, or points of yours
 ///
 /// Over one day or many, within hours by the clock, by the sun, or all that the sun is up. Minutes are exact:
 /// no instants are sampled, it is worked out when each wall begins and ends to cover the sun.
@@ -19,8 +20,8 @@ pub(crate) struct ShadowsArgs {
     /// built in
     pub(crate) city: String,
 
-    /// Where to write minutes of shadow as a GeoTIFF (.tif)
-    #[arg(short, long, value_name = "OUT", value_parser = geotiff)]
+    /// Where to write minutes of shadow: a GeoTIFF (.tif), or places as GeoJSON (.geojson) or GeoParquet (.parquet)
+    #[arg(short, long, value_name = "OUT", value_parser = output)]
     pub(crate) output: Option<PathBuf>,
 
     /// Where to write a map as a picture (.png)
@@ -30,14 +31,8 @@ pub(crate) struct ShadowsArgs {
     #[command(flatten)]
     pub(crate) when: WhenArgs,
 
-    /// How wide a cell of the grid is, in metres: 1, 0.5m, 2 m
-    #[arg(long, value_name = "METRES", default_value = "1", value_parser = cell)]
-    pub(crate) cell: f64,
-
-    /// Only this part of the map: west, south, east, north in the coordinates of the file; all that stands in the file
-    /// throws shadow into it
-    #[arg(long, value_name = "W,S,E,N", value_parser = area, allow_hyphen_values = true)]
-    pub(crate) area: Option<[f64; 4]>,
+    #[command(flatten)]
+    pub(crate) places: PlacesArgs,
 
     /// What the coordinates of the file mean, whatever it says itself: EPSG:25832, a PROJ string, WKT
     #[arg(long, value_name = "CRS", value_parser = crs)]
@@ -58,9 +53,17 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
 
-    /// Time between samples: 1min, 30s
+    /// With --method fast: how far off minutes may be, in percent of the time that the sun is up
+    #[arg(long, value_name = "PERCENT", default_value = "0.5", value_parser = tolerance)]
+    pub(crate) tolerance: f64,
+
+    /// With --method sampled: time between samples, 1min, 30s
     #[arg(long, value_name = "TIME", default_value = "1min", value_parser = step)]
     pub(crate) step: f64,
+
+    /// Go on where a run with the same output was interrupted or ended: what it had done lies in OUT.partial
+    #[arg(long)]
+    pub(crate) resume: bool,
 
     /// Threads to use; 0 means all
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1024))]
@@ -73,6 +76,45 @@ pub(crate) struct ShadowsArgs {
     /// The numbers on standard output as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl ShadowsArgs {
+    /// Seconds between samples, if there are any.
+    pub(crate) fn samples_step(&self) -> Option<f64> {
+        (self.method == Method::Sampled).then_some(self.step)
+    }
+
+    /// All that the minutes depend on beside city, places and time.
+    pub(crate) fn method_text(&self) -> String {
+        match self.method {
+            Method::Exact => Method::Exact.name().to_owned(),
+            Method::Fast => format!("{}, to {} %", Method::Fast.name(), self.tolerance),
+            Method::Sampled => format!("{}, each {} s", Method::Sampled.name(), self.step),
+        }
+    }
+}
+
+/// What an output is, by its ending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum OutputKind {
+    GeoTiff,
+    GeoJson,
+    Parquet,
+}
+
+impl OutputKind {
+    /// Of a path that [`output`] took.
+    pub(crate) fn of(path: &Path) -> Self {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        let ending = ending.to_ascii_lowercase();
+        if GEOJSON.contains(&&*ending) {
+            Self::GeoJson
+        } else if PARQUET.contains(&&*ending) {
+            Self::Parquet
+        } else {
+            Self::GeoTiff
+        }
+    }
 }
 
 /// When.
@@ -170,6 +212,8 @@ fn hours(text: &str) -> Result<Said<Vec<Window>>, String> {
 pub(crate) enum Method {
     /// When each wall begins and ends to cover the sun
     Exact,
+    /// The same on some of the days, and on every day where these do not tell: as --tolerance asks
+    Fast,
     /// One ray toward the sun every --step
     Sampled,
 }
@@ -178,6 +222,7 @@ impl Method {
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
+            Self::Fast => "fast",
             Self::Sampled => "sampled",
         }
     }
@@ -198,15 +243,19 @@ fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     }
 }
 
-fn geotiff(text: &str) -> Result<PathBuf, String> {
-    ends_in(text, &["tif", "tiff"])
+/// The endings of files of places.
+const GEOJSON: [&str; 2] = ["geojson", "json"];
+const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
+
+fn output(text: &str) -> Result<PathBuf, String> {
+    ends_in(text, &[&["tif", "tiff"][..], &GEOJSON, &PARQUET].concat())
 }
 
 fn png(text: &str) -> Result<PathBuf, String> {
     ends_in(text, &["png"])
 }
 
-fn cell(text: &str) -> Result<f64, String> {
+pub(super) fn cell(text: &str) -> Result<f64, String> {
     match metres(text)? {
         metres if (0.01..=10_000.0).contains(&metres) => Ok(metres),
         _ => Err("0.01 to 10000 metres are wanted".to_owned()),
@@ -225,6 +274,14 @@ fn duration(text: &str) -> Result<f64, String> {
     parse_duration(text).map_err(|error| error.to_string())
 }
 
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('%').trim_end();
+    match number.parse::<f64>() {
+        Ok(percent) if (0.0..=10.0).contains(&percent) => Ok(percent),
+        _ => Err("0 to 10 percent are wanted, as 0.5 or 0.5%".to_owned()),
+    }
+}
+
 fn step(text: &str) -> Result<f64, String> {
     match duration(text)? {
         seconds if seconds >= 1.0 => Ok(seconds),
@@ -236,7 +293,7 @@ pub(super) fn crs(text: &str) -> Result<Crs, String> {
     Crs::parse(text).map_err(|error| error.to_string())
 }
 
-fn area(text: &str) -> Result<[f64; 4], String> {
+pub(super) fn area(text: &str) -> Result<[f64; 4], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {
         Ok(&[west, south, east, north]) if west < east && south < north => Ok([west, south, east, north]),
@@ -256,10 +313,22 @@ mod tests {
         for wrong in ["", "0", "-1", "nan", "inf", "1km"] {
             assert!(metres(wrong).is_err(), "{wrong}");
         }
+        assert_eq!(tolerance("0.5%"), Ok(0.5));
+        assert_eq!(tolerance("0"), Ok(0.0));
+        for wrong in ["", "-1", "11", "nan", "half"] {
+            assert!(tolerance(wrong).is_err(), "{wrong}");
+        }
         assert_eq!(area("-1,2,3.5,4"), Ok([-1.0, 2.0, 3.5, 4.0]));
         for wrong in ["", "1,2,3", "3,2,1,4", "1,2,3,nan", "a,b,c,d"] {
             assert!(area(wrong).is_err(), "{wrong}");
         }
-        assert!(geotiff("a.TIF").is_ok() && geotiff("a.png").is_err() && png("a").is_err());
+        assert!(output("a.png").is_err() && png("a").is_err());
+        for (name, kind) in [
+            ("a.TIF", OutputKind::GeoTiff),
+            ("a.b.geojson", OutputKind::GeoJson),
+            ("a.Parquet", OutputKind::Parquet),
+        ] {
+            assert_eq!(OutputKind::of(&output(name).unwrap()), kind);
+        }
     }
 }

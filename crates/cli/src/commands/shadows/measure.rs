@@ -4,11 +4,13 @@ use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use ombra::accrual::{Exact, Occluders, Sampled, Samples, Tiles};
+use ombra::accrual::{Difference, Exact, Fast, Occluders, Sampled, Samples, Tiles};
 use ombra::city::Facet;
 use ombra::pipeline::Cpu;
+use serde::Serialize;
 
 use super::args::{Method, ShadowsArgs};
+use super::partial::Partial;
 use super::when::When;
 use crate::progress::Jobs;
 
@@ -16,11 +18,44 @@ use crate::progress::Jobs;
 pub(super) struct Measured {
     /// Minutes by place; NaN for those that were not reached.
     pub(super) minutes: Vec<f32>,
-    /// How many places were reached.
+    /// How many places were reached, and how many of them by an earlier run.
     pub(super) done: usize,
+    pub(super) resumed: usize,
     /// How long it took to make everything ready, and then.
     pub(super) build_seconds: f64,
     pub(super) seconds: f64,
+    /// Where some days stand for all.
+    pub(super) some_days: Option<SomeDays>,
+}
+
+/// At how many places some days were compared with every day, and how far they are off, in percent of the time
+/// that the sun is up.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct Compared {
+    pub(super) places: usize,
+    pub(super) most: f64,
+    pub(super) mean: f64,
+}
+
+impl From<Difference> for Compared {
+    fn from(found: Difference) -> Self {
+        Self {
+            places: found.places,
+            most: 100.0 * found.most,
+            mean: 100.0 * found.mean,
+        }
+    }
+}
+
+/// How it was done by some of the days.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct SomeDays {
+    /// How many of them; 0 if every day was measured.
+    pub(super) days: usize,
+    /// What came of comparing them with every day.
+    pub(super) compared: Compared,
+    /// At how many places every day was measured in this run.
+    pub(super) refined: usize,
 }
 
 /// How long a part should take, in seconds: between parts progress is shown.
@@ -33,14 +68,36 @@ pub(super) fn measure(
     tiles: &Tiles,
     cpu: &Cpu,
     stop: &AtomicBool,
+    kept: &mut Option<(Partial, Vec<f32>)>,
 ) -> Measured {
     let begun = Instant::now();
     match args.method {
         Method::Exact => {
             let occluders = cpu.install(|| Occluders::new(facets));
-            let exact = cpu.install(|| Exact::new(&occluders, &when.sheets()));
+            let exact = cpu.install(|| Exact::new(&occluders, &when.sheets().concat()));
             let part = |which| cpu.install(|| exact.seconds_of(tiles, which));
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, kept, part)
+        }
+        Method::Fast => {
+            let occluders = cpu.install(|| Occluders::new(facets));
+            let is_wanted = || !stop.load(Ordering::Relaxed);
+            let tolerance = args.tolerance / 100.0;
+            let days = cpu.install(|| when.sheets());
+            let fast = cpu.install(|| Fast::new(&occluders, &days, tiles, tolerance, is_wanted));
+            let built = begun.elapsed().as_secs_f64();
+            let Some(fast) = fast else {
+                return in_parts(args, tiles, built, stop, kept, |_| Vec::new());
+            };
+            let part = |which| cpu.install(|| fast.seconds_of(tiles, which));
+            let measured = in_parts(args, tiles, built, stop, kept, part);
+            Measured {
+                some_days: Some(SomeDays {
+                    days: fast.days(),
+                    compared: fast.error().into(),
+                    refined: fast.refined(),
+                }),
+                ..measured
+            }
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
@@ -49,7 +106,7 @@ pub(super) fn measure(
                 let places = &tiles.places()[tiles.range(which)];
                 cpu.install(|| sampled.seconds(&samples, places))
             };
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, kept, part)
         }
     }
 }
@@ -59,13 +116,19 @@ fn in_parts(
     tiles: &Tiles,
     build_seconds: f64,
     stop: &AtomicBool,
+    kept: &mut Option<(Partial, Vec<f32>)>,
     part: impl Fn(std::ops::Range<usize>) -> Vec<f64>,
 ) -> Measured {
     let bar = Jobs::new(!args.quiet && io::stderr().is_terminal());
     let total = tiles.places().len();
     let mut minutes = Vec::with_capacity(total);
+    if let Some((_, before)) = kept {
+        minutes.append(before);
+    }
+    let resumed = minutes.len();
     let begun = Instant::now();
-    let (mut tile, mut count) = (0, 64);
+    let mut tile = tiles.before(resumed);
+    let mut count = 64;
     while tile < tiles.len() && !stop.load(Ordering::Relaxed) {
         let begun = Instant::now();
         let end = tiles.len().min(tile + count);
@@ -78,6 +141,9 @@ fn in_parts(
         // So many that a part takes about as long as it should.
         let faster = PART / begun.elapsed().as_secs_f64().max(1e-6);
         count = ((count as f64 * faster.clamp(0.5, 4.0)) as usize).max(64);
+        if let Some((partial, _)) = kept {
+            partial.keep_sometimes(&minutes);
+        }
         bar.update(minutes.len() as u64, total as u64, "places");
     }
     bar.finish();
@@ -86,7 +152,9 @@ fn in_parts(
     Measured {
         minutes,
         done,
+        resumed,
         build_seconds,
         seconds: begun.elapsed().as_secs_f64(),
+        some_days: None,
     }
 }

@@ -1,28 +1,36 @@
 //! `ombra shadows`: from a city to the map of its shadow.
 
 mod args;
+mod bound;
 mod demo;
 mod measure;
 mod output;
+mod partial;
+mod places;
+mod reach;
+mod rows;
 mod site;
 mod when;
 
 use std::io::{self, Write as _};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use anyhow::{Context as _, bail};
-use ombra::accrual::Tiles;
-use ombra::city::{City, Grid, Origin};
+use anyhow::Context as _;
+use ombra::city::City;
 use ombra::formats::can_write_whole;
 use ombra::pipeline::Cpu;
 use ombra::sun::Place;
 
-pub(crate) use args::ShadowsArgs;
+pub(crate) use args::{OutputKind, ShadowsArgs};
 use measure::{Measured, measure};
 use output::{Statistics, summary};
+use partial::Partial;
+use places::{Asked, Places};
+use reach::Reach;
 use site::Site;
 use when::When;
 
@@ -35,12 +43,16 @@ const DEMO: &str = "demo";
 pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     let is_demo = args.city == DEMO;
     let asks_for_files = args.output.is_some() || args.png.is_some();
-    let is_tour = is_demo && !asks_for_files && !args.when.names_days();
+    let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
     if !is_tour && !args.when.names_days() {
         no_days();
     }
     if is_tour && args.json {
         wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
+    }
+    refuse_maps_of_no_grid(args);
+    if args.resume && !asks_for_files && !is_tour {
+        wrong_usage("--resume goes on with an output: name it, with -o or --png");
     }
     let session = Session {
         cpu: Cpu::with_threads(args.threads as usize).context("cannot start the threads")?,
@@ -71,32 +83,23 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let begun = Instant::now();
     let site = cpu.install(|| Site::read(args))?;
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
-    let when = cpu.install(|| When::new(&args.when, place, args.step))?;
-    let grid = match args.area {
-        Some(area) => grid_over(area, args.cell, site.origin()),
-        None => site.grid(args.cell)?,
-    };
-    let (city, reach) = cpu.install(|| site.city(&grid, when.lowest_altitude()))?;
+    let when = cpu.install(|| When::new(&args.when, place, args.samples_step()))?;
+    let all = cpu.install(|| site.extent());
+    let asked = Asked::read(&args.places, site.origin(), all, &talk)?;
+    let (places, lowest) = (asked.extent(all), when.lowest_altitude());
+    let (city, reach) = cpu.install(|| site.city(places, lowest))?;
     for finding in &city.findings {
         talk.say(&format!("{}: {finding}", args.city));
     }
     let facets = city.facets();
-    let tiles = cpu.install(|| Tiles::on_ground(&city, &grid));
-    if tiles.is_empty() {
-        bail!(
-            "{}: no place of the grid lies on the ground outside of buildings; take smaller cells",
-            args.city
-        );
-    }
+    let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
+    let around = cpu.install(|| Reach::new(&facets, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
-        "{}: {} buildings, {} x {} cells of {} m, {} outside; {} day{}, {:.1} h of sun ({})",
+        "{}: {} buildings, {}; {} day{}, {:.1} h of sun ({})",
         args.city,
         city.buildings.len(),
-        grid.width,
-        grid.height,
-        grid.cell,
-        tiles.places().len(),
+        places.describe(),
         when.days,
         if when.days == 1 { "" } else { "s" },
         when.hours(),
@@ -105,32 +108,43 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     if !city.terrain.is_empty() {
         talk.say(&surface_line(&city, reach));
     }
+    if args.places.is_part() {
+        talk.say(&format!("{}: {}", args.city, around.describe()));
+    }
 
-    let measured = measure(args, &facets, &when, &tiles, cpu, stop);
+    let mut kept = Partial::open(args, &facets, &places.tiles, &when)?;
+    if let Some((_, before)) = kept.as_ref().filter(|_| args.resume) {
+        let all = places.tiles.places().len();
+        talk.say(&match before.len() {
+            0 => "nothing to go on from: it begins anew".to_owned(),
+            done => format!("goes on: {done} of {all} places are done"),
+        });
+    }
+    let measured = measure(args, &facets, &when, &places.tiles, cpu, stop, &mut kept);
     let Measured { minutes, done, .. } = &measured;
     if *done == 0 {
         talk.say("interrupted before there was anything to keep; nothing written");
         return Ok(ExitCode::from(interrupt::EXIT_CODE));
     }
-    output::write(args, &city, &grid, &when, &tiles, minutes)?;
-    let statistics = Statistics::new(
-        args,
-        &city,
-        &grid,
-        &when,
-        &measured,
-        load_seconds,
-        cpu.threads(),
-    );
+    let is_whole = *done == minutes.len();
+    if let Some((partial, _)) = kept.as_ref().filter(|_| !is_whole) {
+        partial.keep(&minutes[..*done])?;
+    }
+    output::write(args, &city, &places, &when, &measured)?;
+    if let Some((partial, _)) = kept.as_ref().filter(|_| is_whole) {
+        partial.remove()?;
+    }
+    let threads = cpu.threads();
+    let mut statistics = Statistics::new(args, &city, &places, around, &when, &measured, threads);
+    statistics.load_seconds = load_seconds;
     talk.say(&summary(&statistics));
     if args.output.is_none() && args.png.is_none() && !args.json {
-        talk.say("nothing was written: -o shadow.tif keeps the minutes, --png shadow.png a map");
+        talk.say("nothing was written: -o keeps the minutes (.tif, .geojson, .parquet), --png shadow.png is a map");
     }
     if args.json {
         let json = serde_json::to_string_pretty(&statistics)?;
         writeln!(io::stdout(), "{json}")?;
     }
-    let is_whole = *done == minutes.len();
     Ok(ExitCode::from(if is_whole {
         0
     } else {
@@ -149,35 +163,18 @@ fn surface_line(city: &City, reach: f64) -> String {
     format!("{ground} triangles of ground, {above} of what stands on it{within}")
 }
 
-fn grid_over([west, south, east, north]: [f64; 4], cell: f64, origin: &Origin) -> Grid {
-    // The sides of an area of the map need not be straight here: its corners and the middles of its sides.
-    let (x, y) = (0.5 * (west + east), 0.5 * (south + north));
-    let around = [
-        [west, south],
-        [x, south],
-        [east, south],
-        [east, y],
-        [east, north],
-        [x, north],
-        [west, north],
-        [west, y],
-    ];
-    let local = around.map(|map| origin.to_local(map));
-    if local.iter().flatten().any(|x| !x.is_finite()) {
-        wrong_usage(&format!(
-            "--area: the map of the city has no such place; its coordinates are those of {}",
-            origin.crs().name()
-        ));
+/// A picture and a GeoTIFF show a grid from above; there is none of façades, roofs and points.
+fn refuse_maps_of_no_grid(args: &ShadowsArgs) {
+    if args.places.is_grid() {
+        return;
     }
-    let least = |axis: usize| local.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-    let most = |axis: usize| {
-        local
-            .iter()
-            .map(|p| p[axis])
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
-    let within = Grid::within([least(0), least(1)], [most(0), most(1)], cell);
-    within.unwrap_or_else(|error| wrong_usage(&format!("--area: {error}")))
+    let is_geotiff = |path: &PathBuf| OutputKind::of(path) == OutputKind::GeoTiff;
+    if args.png.is_some() || args.output.as_ref().is_some_and(is_geotiff) {
+        wrong_usage(
+            "a map (--png, .tif) is of the grid over the ground; places on roofs and facades and points are written \
+             with -o as .geojson or .parquet",
+        );
+    }
 }
 
 fn wrong_usage(message: &str) -> ! {

@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
-use ombra::accrual::Tiles;
-use ombra::city::{City, Grid};
+use ombra::city::City;
+use ombra::formats::places::{write_places_geojson, write_places_parquet};
 use ombra::formats::raster::{MapStyle, Raster, Unit, map_picture, write_geotiff};
 use ombra::formats::{Metadata, write_image};
 use serde::Serialize;
 
-use super::args::{Method, ShadowsArgs};
-use super::measure::Measured;
+use super::args::{Method, OutputKind, ShadowsArgs};
+use super::measure::{Measured, SomeDays};
+use super::places::{Kind, Places};
+use super::reach::Reach;
+use super::rows::with_rows;
 use super::when::When;
 use crate::commands::command;
 
@@ -29,33 +32,49 @@ pub(super) struct Statistics<'a> {
     sun_hours: f64,
     buildings: usize,
     findings: usize,
-    width: u32,
-    height: u32,
-    cell: f64,
+    /// What is measured on: ground, roof, facade, points.
+    on: &'static str,
+    /// Of a grid.
+    width: Option<u32>,
+    height: Option<u32>,
+    /// None for points.
+    cell: Option<f64>,
     /// Outside of buildings.
     places: usize,
+    /// Places on faces and points that lie in a building, or against one.
+    hidden: usize,
     done: usize,
+    /// By an earlier run.
+    resumed: usize,
+    surroundings: Reach,
     minutes_least: f64,
     minutes_mean: f64,
     minutes_most: f64,
     threads: usize,
-    load_seconds: f64,
+    /// Set by whoever measured it.
+    pub(super) load_seconds: f64,
     build_seconds: f64,
     seconds: f64,
     places_per_second: f64,
     interrupted: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    some_days: Option<SomeDays>,
 }
 
 impl<'a> Statistics<'a> {
     pub(super) fn new(
         args: &'a ShadowsArgs,
         city: &City,
-        grid: &Grid,
+        places: &Places,
+        reach: Reach,
         when: &'a When,
         measured: &Measured,
-        load_seconds: f64,
         threads: usize,
     ) -> Self {
+        let grid = match &places.kind {
+            Kind::Grid { grid, .. } => Some(grid),
+            _ => None,
+        };
         let minutes = &measured.minutes[..measured.done];
         let sum: f64 = minutes.iter().copied().map(f64::from).sum();
         Self {
@@ -71,20 +90,26 @@ impl<'a> Statistics<'a> {
             sun_hours: when.hours(),
             buildings: city.buildings.len(),
             findings: city.findings.len(),
-            width: grid.width,
-            height: grid.height,
-            cell: grid.cell,
+            on: places.name(),
+            width: grid.map(|grid| grid.width),
+            height: grid.map(|grid| grid.height),
+            cell: args.places.points.is_none().then_some(args.places.cell),
             places: measured.minutes.len(),
+            hidden: places.hidden(),
             done: measured.done,
+            resumed: measured.resumed,
+            surroundings: reach,
             minutes_least: minutes.iter().copied().fold(f32::INFINITY, f32::min).into(),
             minutes_mean: sum / measured.done as f64,
             minutes_most: minutes.iter().copied().fold(0.0, f32::max).into(),
             threads,
-            load_seconds,
+            load_seconds: 0.0,
             build_seconds: measured.build_seconds,
             seconds: measured.seconds,
-            places_per_second: measured.done as f64 / measured.seconds.max(1e-9),
+            places_per_second: (measured.done - measured.resumed) as f64
+                / measured.seconds.max(1e-9),
             interrupted: measured.done < measured.minutes.len(),
+            some_days: measured.some_days,
         }
     }
 }
@@ -105,8 +130,10 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
         .flatten()
         .map(|file| file.display().to_string())
         .collect();
-    let kept = if statistics.interrupted {
-        "interrupted, kept what was done: "
+    let kept = if statistics.interrupted && statistics.output.or(statistics.png).is_some() {
+        "interrupted, kept what was done (--resume goes on): "
+    } else if statistics.interrupted {
+        "interrupted: "
     } else {
         ""
     };
@@ -125,48 +152,45 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
 }
 
 /// What is known of the times, for people.
-fn bound(args: &ShadowsArgs) -> String {
-    match args.method {
-        Method::Exact => {
-            "exact in time, a day to 1 s and to 0.05 s in the mean, for a sun that is a point"
-                .to_owned()
-        }
-        Method::Sampled => format!("one sample every {} s", args.step),
+fn bound(args: &ShadowsArgs, when: &When, measured: &Measured) -> String {
+    let exact = "exact in time, a day to 1 s and to 0.05 s in the mean, for a sun that is a point";
+    match (args.method, measured.some_days) {
+        (Method::Fast, Some(some)) if some.days > 0 => format!(
+            "{} of {} days stand for all, within {} % of the time that the sun is up (at {} places compared with every \
+             day, {:.2} % at most); for a sun that is a point",
+            some.days, when.days, args.tolerance, some.compared.places, some.compared.most
+        ),
+        (Method::Exact | Method::Fast, _) => exact.to_owned(),
+        (Method::Sampled, _) => format!("one sample every {} s", args.step),
     }
 }
 
 pub(super) fn write(
     args: &ShadowsArgs,
     city: &City,
-    grid: &Grid,
+    places: &Places,
     when: &When,
-    tiles: &Tiles,
-    minutes: &[f32],
+    measured: &Measured,
 ) -> anyhow::Result<()> {
-    let mut values = vec![f32::NAN; grid.count()];
-    for (&cell, &minutes) in tiles.cells().iter().zip(minutes) {
-        values[cell as usize] = minutes;
-    }
-    let raster = Raster::new(&city.origin, *grid, Unit::Minutes, &values)?;
+    let values = places.spread(&measured.minutes);
     if let Some(path) = &args.output {
-        let entry = |key: &str, value: String| (key.to_owned(), value);
-        let metadata = [
-            entry("command", command()),
-            entry(
-                "version",
-                concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned(),
-            ),
-            entry("when", when.text.clone()),
-            entry("time_zone", when.zone.clone()),
-            entry("days", when.days.to_string()),
-            entry("sun_hours", format!("{:.6}", when.hours())),
-            entry("method", args.method.name().to_owned()),
-            entry("bound", bound(args)),
-            entry("unit", "minutes in shadow".to_owned()),
-        ];
-        write_geotiff(path, &raster, &metadata)?;
+        let metadata = metadata(args, when, measured);
+        match (OutputKind::of(path), &places.kind) {
+            (OutputKind::GeoJson, _) => with_rows(places, city, &values, |rows| {
+                write_places_geojson(path, rows, &metadata)
+            })?,
+            (OutputKind::Parquet, _) => with_rows(places, city, &values, |rows| {
+                write_places_parquet(path, rows, &metadata)
+            })?,
+            (OutputKind::GeoTiff, Kind::Grid { grid, .. }) => {
+                let raster = Raster::new(&city.origin, *grid, Unit::Minutes, &values)?;
+                write_geotiff(path, &raster, &metadata)?;
+            }
+            (OutputKind::GeoTiff, _) => unreachable!("refused before anything was measured"),
+        }
     }
-    if let Some(path) = &args.png {
+    if let (Some(path), Kind::Grid { grid, .. }) = (&args.png, &places.kind) {
+        let raster = Raster::new(&city.origin, *grid, Unit::Minutes, &values)?;
         let name = Path::new(&args.city).file_stem().map_or_else(
             || args.city.clone(),
             |stem| stem.to_string_lossy().into_owned(),
@@ -174,7 +198,11 @@ pub(super) fn write(
         let style = MapStyle {
             title: format!("Shadow: {name}"),
             subtitle: format!("{} ({})", when.text, when.zone),
-            footer: format!("ombra {}; {}", env!("CARGO_PKG_VERSION"), bound(args)),
+            footer: format!(
+                "ombra {}; {}",
+                env!("CARGO_PKG_VERSION"),
+                bound(args, when, measured)
+            ),
             max: None,
             ..MapStyle::default()
         };
@@ -185,4 +213,23 @@ pub(super) fn write(
         write_image(path, &map_picture(&raster, &style), &metadata)?;
     }
     Ok(())
+}
+
+/// What says how the numbers came about.
+fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> [(String, String); 9] {
+    let entry = |key: &str, value: String| (key.to_owned(), value);
+    [
+        entry("command", command()),
+        entry(
+            "version",
+            concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned(),
+        ),
+        entry("when", when.text.clone()),
+        entry("time_zone", when.zone.clone()),
+        entry("days", when.days.to_string()),
+        entry("sun_hours", format!("{:.6}", when.hours())),
+        entry("method", args.method.name().to_owned()),
+        entry("bound", bound(args, when, measured)),
+        entry("unit", "minutes in shadow".to_owned()),
+    ]
 }

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use ombra::city::{City, CityError, Crs, Extent, Grid, Origin, demo_city};
+use ombra::city::{City, CityError, Crs, Extent, Origin, demo_city};
 use ombra::formats::Limits;
 use ombra::formats::city::{CityModel, CityOptions, Up, read_city, read_city_model};
 use ombra::formats::elevation::{Elevation, is_elevation, read_elevation};
 
 use super::args::ShadowsArgs;
+use super::bound::extent;
 use super::{DEMO, wrong_usage};
 
 /// What stands around.
@@ -133,27 +134,18 @@ impl<'a> Site<'a> {
         &self.origin
     }
 
-    /// Over all of it; terrain and models that were added do not count.
-    pub(super) fn grid(&self, cell: f64) -> anyhow::Result<Grid> {
-        Ok(match &self.ground {
-            GroundedOn::City(city) => Grid::over(&city.facets(), cell)?,
-            GroundedOn::Surface(surface) => {
-                let extent = surface.field.extent(&self.origin);
-                Grid::within(extent.low, extent.high, cell)?
-            }
-        })
+    /// Around all of it; terrain and models that were added do not count.
+    pub(super) fn extent(&self) -> Extent {
+        match &self.ground {
+            GroundedOn::City(city) => extent(&city.facets()),
+            GroundedOn::Surface(surface) => surface.field.extent(&self.origin),
+        }
     }
 
-    /// The city with all that is around the places of a grid, as far as shadows reach while the sun stands at
+    /// The city with all that is around the places, as far as shadows reach while the sun stands at
     /// least so high, in radians; and how far that is, in metres.
-    pub(super) fn city(self, grid: &Grid, altitude: f64) -> anyhow::Result<(City, f64)> {
+    pub(super) fn city(self, places: Extent, altitude: f64) -> anyhow::Result<(City, f64)> {
         let reach = self.rise() / altitude.max(0.0).tan();
-        let [width, height] = [grid.width, grid.height].map(|n| f64::from(n) * grid.cell);
-        let [west, south] = grid.corner;
-        let places = Extent {
-            low: grid.corner,
-            high: [west + width, south + height],
-        };
         let extent = places.widened(reach);
         let (name, terrain) = (&self.args.city, self.terrain);
         let terrain_name = self

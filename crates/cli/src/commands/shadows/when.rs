@@ -16,6 +16,8 @@ const MOST_SAMPLES: f64 = 1e7;
 pub(super) struct When {
     pub(super) days: usize,
     pub(super) spans: Vec<Span>,
+    /// Where the spans of each day end.
+    ends: Vec<usize>,
     pub(super) sky: Sky,
     pub(super) zone: String,
     /// For people: which days and hours.
@@ -23,7 +25,8 @@ pub(super) struct When {
 }
 
 impl When {
-    pub(super) fn new(args: &WhenArgs, place: Place, step: f64) -> anyhow::Result<Self> {
+    /// `step` is that of samples, in seconds, where there are any.
+    pub(super) fn new(args: &WhenArgs, place: Place, step: Option<f64>) -> anyhow::Result<Self> {
         let zone = match &args.time_zone {
             Some(name) => jiff::tz::TimeZone::get(name).unwrap_or_else(|_| {
                 wrong_usage(&format!(
@@ -56,10 +59,12 @@ impl When {
         };
         let sky = Sky::new(place, refraction)?;
         let hours = hours(args).unwrap_or_else(|error| wrong_usage(&error.to_string()));
-        let spans: Vec<Span> = (days.dates().par_iter())
-            .flat_map_iter(|&date| hours.spans(&sky, &zone, date))
+        let by_day: Vec<Vec<Span>> = (days.dates().par_iter())
+            .map(|&date| hours.spans(&sky, &zone, date))
             .collect();
-        let samples = spans.iter().map(Span::seconds).sum::<f64>() / step;
+        let spans = by_day.concat();
+        let seconds = spans.iter().map(Span::seconds).sum::<f64>();
+        let samples = step.map_or(0.0, |step| seconds / step);
         if samples > MOST_SAMPLES {
             wrong_usage(&format!(
                 "--step: {samples:.0} samples are more than {MOST_SAMPLES}: take longer steps or fewer days"
@@ -71,7 +76,13 @@ impl When {
             );
         }
         Ok(Self {
-            days: days.dates().len(),
+            days: by_day.len(),
+            ends: (by_day.iter())
+                .scan(0, |end, day| {
+                    *end += day.len();
+                    Some(*end)
+                })
+                .collect(),
             spans,
             sky,
             zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
@@ -99,10 +110,19 @@ impl When {
         lowest.reduce(|| f64::INFINITY, f64::min) - TURN
     }
 
-    pub(super) fn sheets(&self) -> Vec<Sheet> {
-        (self.spans.par_iter())
-            .flat_map_iter(|&span| Sheet::cover(&self.sky, span))
-            .collect()
+    /// The way of the sun, day by day.
+    pub(super) fn sheets(&self) -> Vec<Vec<Sheet>> {
+        let begins = [0].into_iter().chain(self.ends.iter().copied());
+        let days: Vec<&[Span]> = begins
+            .zip(&self.ends)
+            .map(|(begin, &end)| &self.spans[begin..end])
+            .collect();
+        let sheets = |spans: &&[Span]| {
+            (spans.iter())
+                .flat_map(|&span| Sheet::cover(&self.sky, span))
+                .collect()
+        };
+        days.par_iter().map(sheets).collect()
     }
 }
 

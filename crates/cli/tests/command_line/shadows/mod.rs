@@ -2,6 +2,9 @@
 
 use serde_json::Value;
 
+mod places;
+mod resumed;
+
 use crate::{fail, outside_data, succeed};
 
 fn json(folder: &std::path::Path, arguments: &[&str]) -> Value {

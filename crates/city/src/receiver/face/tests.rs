@@ -1,0 +1,170 @@
+use super::*;
+use crate::crs::Crs;
+use crate::draft::{Draft, DraftBuilding, DraftFace, DraftPart};
+
+fn at(x: f64, y: f64) -> [f64; 2] {
+    [500_000.0 + x, 5_800_000.0 + y]
+}
+
+fn city(parts: Vec<DraftPart>) -> City {
+    let mut draft = Draft::new(Crs::from_epsg(32633).unwrap());
+    draft
+        .buildings
+        .extend(parts.into_iter().map(|part| DraftBuilding {
+            place: "test".to_owned(),
+            parts: vec![part],
+            ..DraftBuilding::default()
+        }));
+    draft.finish().unwrap()
+}
+
+/// A box of so many metres to the east and to the north.
+fn block([x, y]: [f64; 2], [width, depth]: [f64; 2], top: f64) -> DraftPart {
+    let ring = vec![
+        at(x, y),
+        at(x + width, y),
+        at(x + width, y + depth),
+        at(x, y + depth),
+    ];
+    DraftPart::Footprint {
+        rings: vec![ring],
+        base: 0.0,
+        top,
+    }
+}
+
+/// Faces of a roof and walls of one pitch each, open: nothing tells which side is out.
+fn open(rings: Vec<Vec<[f64; 3]>>) -> DraftPart {
+    let face = |ring: Vec<[f64; 3]>| DraftFace {
+        rings: vec![
+            ring.into_iter()
+                .map(|[x, y, z]| [at(x, y)[0], at(x, y)[1], z])
+                .collect(),
+        ],
+        surface: Surface::Untold,
+    };
+    DraftPart::Faces(rings.into_iter().map(face).collect())
+}
+
+#[test]
+fn a_block_has_a_lattice_on_each_face() {
+    let city = city(vec![block([0.0, 0.0], [12.0, 6.0], 9.0)]);
+    let walls = city.face_places(FaceKind::Facade, 3.0, |_| true).unwrap();
+    assert_eq!(walls.len(), 2 * 4 * 3 + 2 * 2 * 3);
+    let outer = crate::polygon::Polygon::bounds(match &city.buildings[0].parts[0] {
+        Part::Prism(prism) => &prism.outline,
+        Part::Faces(_) => panic!("a block is a prism"),
+    });
+    for place in &walls {
+        let (p, n) = (place.at, place.normal);
+        assert!((n.length() - 1.0).abs() < 1e-6 && n.z.abs() < 1e-6);
+        // 2 cm before the wall that it looks away from.
+        let off = [
+            p.x - outer[1][0],
+            outer[0][0] - p.x,
+            p.y - outer[1][1],
+            outer[0][1] - p.y,
+        ];
+        let off = off.into_iter().fold(f32::MIN, f32::max);
+        assert!((off - 0.02).abs() < 1e-3, "{off}");
+        let up = (p.z - 1.5) / 3.0;
+        assert!(
+            (up - up.round()).abs() < 1e-3,
+            "in the middle of a cell: {}",
+            p.z
+        );
+    }
+    let roof = city.face_places(FaceKind::Roof, 3.0, |_| true).unwrap();
+    assert_eq!(roof.len(), 4 * 2);
+    assert!(roof.iter().all(|place| (place.at.z - 9.02).abs() < 1e-4));
+    let eastern = city
+        .face_places(FaceKind::Roof, 3.0, |[x, _]| {
+            x > f64::from(outer[0][0]) + 6.0
+        })
+        .unwrap();
+    assert_eq!(eastern.len(), 2 * 2);
+    assert!(
+        roof.iter()
+            .all(|place| place.normal.z == 1.0 && place.building == 0)
+    );
+}
+
+#[test]
+fn small_and_odd_faces_have_a_place() {
+    // An L: the middle of its box is not in it.
+    let ring = [
+        (0., 0.),
+        (20., 0.),
+        (20., 1.),
+        (1., 1.),
+        (1., 20.),
+        (0., 20.),
+    ];
+    let ring = ring.into_iter().map(|(x, y)| at(x, y)).collect();
+    let city = city(vec![DraftPart::Footprint {
+        rings: vec![ring],
+        base: 0.0,
+        top: 2.0,
+    }]);
+    let roof = city.face_places(FaceKind::Roof, 100.0, |_| true).unwrap();
+    assert_eq!(roof.len(), 1);
+    let at = roof[0].at;
+    let Part::Prism(prism) = &city.buildings[0].parts[0] else {
+        panic!("an outline is a prism");
+    };
+    assert!(prism.outline.contains([at.x, at.y]));
+    assert_eq!(
+        city.face_places(FaceKind::Facade, 100.0, |_| true)
+            .unwrap()
+            .len(),
+        6
+    );
+}
+
+#[test]
+fn a_roof_that_nothing_encloses_faces_up_and_a_wall_away_from_the_building() {
+    let roof = vec![[0., 0., 5.], [0., 8., 5.], [8., 8., 7.], [8., 0., 7.]];
+    // Turned inward, as some files have them.
+    let wall = vec![[0., 0., 0.], [0., 0., 5.], [8., 0., 7.], [8., 0., 0.]];
+    let city = city(vec![open(vec![roof, wall])]);
+    let roofs = city.face_places(FaceKind::Roof, 2.0, |_| true).unwrap();
+    assert_eq!(roofs.len(), 4 * 5, "8.25 m upslope");
+    assert!(roofs.iter().all(|place| place.normal.z > 0.9));
+    let walls = city.face_places(FaceKind::Facade, 2.0, |_| true).unwrap();
+    assert!(!walls.is_empty());
+    assert!(walls.iter().all(|place| place.normal.y < -0.99), "south");
+    assert!(walls.iter().all(|place| place.at.z < 7.0));
+}
+
+#[test]
+fn a_bent_face_is_followed() {
+    let saddle = vec![[0., 0., 5.], [8., 0., 8.], [8., 8., 5.], [0., 8., 8.]];
+    let city = city(vec![open(vec![saddle])]);
+    let roofs = city.face_places(FaceKind::Roof, 1.0, |_| true).unwrap();
+    assert!(roofs.len() > 60, "{}", roofs.len());
+    // Two triangles meet in one of the diagonals: none of their places is as high as the saddle's plane in all corners.
+    let facets = city.facets();
+    for place in &roofs {
+        let off = facets.iter().map(|facet| {
+            let plane = Plane::of(&facet.corners[..3]).unwrap();
+            plane.distance(place.at).abs()
+        });
+        let off = off.fold(f64::MAX, f64::min);
+        assert!((off - STAND_OFF).abs() < 1e-3 || off < STAND_OFF, "{off}");
+    }
+}
+
+#[test]
+fn what_cannot_be_sampled_says_so() {
+    let city = city(vec![block([0.0, 0.0], [2000.0, 2000.0], 9.0)]);
+    for cell in [0.0, -1.0, f64::NAN, 1e9] {
+        let error = city
+            .face_places(FaceKind::Roof, cell, |_| true)
+            .unwrap_err();
+        assert!(matches!(error, GridError::Cell(_)));
+    }
+    let error = city
+        .face_places(FaceKind::Roof, 0.01, |_| true)
+        .unwrap_err();
+    assert_eq!(error, GridError::ManyPlaces);
+}

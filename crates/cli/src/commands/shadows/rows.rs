@@ -1,0 +1,85 @@
+//! The places of a run as the rows of a table.
+
+use ombra::accrual::Ground;
+use ombra::city::{City, Crs, Inside};
+use ombra::formats::places::PlaceRow;
+use ombra::geometry::Point3;
+
+use super::bound::Bound;
+use super::places::{Kind, Places};
+
+/// Calls with all rows in turn: `minutes` are one number a place, NaN where there is none.
+pub(super) fn with_rows<R>(
+    places: &Places,
+    city: &City,
+    minutes: &[f32],
+    write: impl FnOnce(&mut dyn Iterator<Item = PlaceRow<'_>>) -> R,
+) -> R {
+    let position = |at: Point3| {
+        let [longitude, latitude] = city.origin.to_geographic([at.x, at.y].map(f64::from));
+        [longitude, latitude, f64::from(at.z)]
+    };
+    let known = |index: usize| Some(minutes[index]).filter(|minutes| !minutes.is_nan());
+    let building = |number: u32| (number, city.buildings[number as usize].id.as_deref());
+    match &places.kind {
+        Kind::Grid { grid, bound } => {
+            let (ground, inside) = (Ground::new(city), Inside::new(city));
+            let cells =
+                (0..grid.height).flat_map(|row| (0..grid.width).map(move |column| (row, column)));
+            let mut rows = cells.enumerate().filter_map(|(index, (row, column))| {
+                let centre = grid.centre(column, row);
+                // All cells that an area touches belong to it.
+                if matches!(bound, Bound::Study(_)) && !bound.contains(centre) {
+                    return None;
+                }
+                // A hole of a surface model is no place.
+                let at = ground.at(centre)?;
+                let owner = inside.building(at);
+                Some(PlaceRow {
+                    position: position(at),
+                    minutes: known(index),
+                    inside: owner.is_some(),
+                    building: owner.map(building),
+                    ..PlaceRow::default()
+                })
+            });
+            write(&mut rows)
+        }
+        Kind::Faces { kind, found } => {
+            let mut rows = found
+                .places
+                .iter()
+                .enumerate()
+                .map(|(index, place)| PlaceRow {
+                    position: position(place.at),
+                    minutes: known(index),
+                    building: Some(building(place.building)),
+                    surface: Some((kind.name(), place.normal)),
+                    ..PlaceRow::default()
+                });
+            write(&mut rows)
+        }
+        Kind::Points {
+            file, at, inside, ..
+        } => {
+            let is_geographic = file.crs.as_ref().is_some_and(|crs| *crs == Crs::wgs84());
+            let mut rows = file.points.iter().enumerate().map(|(index, point)| {
+                let mut position = position(at[index]);
+                if is_geographic {
+                    // As they were given, to the last digit.
+                    [position[0], position[1]] = point.at;
+                }
+                PlaceRow {
+                    position,
+                    minutes: known(index),
+                    inside: inside[index].is_some(),
+                    building: inside[index].map(building),
+                    id: point.id.as_deref(),
+                    properties: Some(&point.properties),
+                    ..PlaceRow::default()
+                }
+            });
+            write(&mut rows)
+        }
+    }
+}
