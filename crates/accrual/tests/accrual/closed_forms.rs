@@ -9,7 +9,7 @@ use ombra_sun::{Sky, Span};
 use crate::solids::{sheets, sky, spans};
 
 /// Seconds in which something holds for the sun, to a millisecond: looked at every five seconds.
-fn while_so(sky: &Sky, spans: &[Span], so: impl Fn([f64; 3]) -> bool) -> f64 {
+pub(crate) fn while_so(sky: &Sky, spans: &[Span], so: impl Fn([f64; 3]) -> bool) -> f64 {
     let holds = |instant| so(sky.direction(instant));
     let mut seconds = 0.0;
     for span in spans {
