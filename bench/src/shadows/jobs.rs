@@ -29,6 +29,7 @@ pub(super) struct Skies {
 pub(super) struct Period {
     pub(super) name: String,
     pub(super) spans: Vec<Span>,
+    pub(super) by_day: Vec<Vec<Sheet>>,
     pub(super) sheets: Vec<Sheet>,
     pub(super) samples: Samples,
 }
@@ -44,16 +45,19 @@ impl Skies {
     }
 
     fn period(&self, name: String, hours: &Hours, dates: &[Date]) -> Period {
-        let spans: Vec<Span> = (dates.par_iter())
-            .flat_map_iter(|&date| hours.spans(&self.sky, &self.calendar.zone, date))
-            .collect();
-        let sheets = (spans.par_iter())
-            .flat_map_iter(|&span| Sheet::cover(&self.sky, span))
-            .collect();
+        let spans_of = |&date: &Date| hours.spans(&self.sky, &self.calendar.zone, date);
+        let days: Vec<Vec<Span>> = dates.par_iter().map(spans_of).collect();
+        let sheets_of = |spans: &Vec<Span>| {
+            let sheets = spans.iter().map(|&span| Sheet::cover(&self.sky, span));
+            sheets.flatten().collect()
+        };
+        let by_day: Vec<Vec<Sheet>> = days.par_iter().map(sheets_of).collect();
+        let (spans, sheets) = (days.concat(), by_day.concat());
         let samples = Samples::new(&self.sky, &spans);
         Period {
             name,
             spans,
+            by_day,
             sheets,
             samples,
         }

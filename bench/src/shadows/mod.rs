@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use anyhow::Context as _;
 use ombra_accel::Level;
-use ombra_accrual::{Exact, Occluders};
+use ombra_accrual::{Exact, Fast, Occluders, Tiles};
 use ombra_city::{City, Inside, procedural_city};
 use ombra_formats::city::{CityOptions, read_city};
 use ombra_geometry::Point3;
@@ -31,6 +31,9 @@ use crate::machine::Machine;
 pub use self::report::{CityRecord, Difference, JobRecord, OwnRecord, Ratio, Report, Timed};
 
 pub(crate) use self::samples::Samples;
+
+/// How far the year by some of its days may be off, as a share of the time that the sun is up.
+const TOLERANCE: f64 = 0.005;
 
 /// The name of the generated city among the cities.
 pub const PROCEDURAL: &str = "procedural";
@@ -171,7 +174,12 @@ fn measure(
     talk("  ground, year");
     let year = skies.year(options.every)?;
     let few = places::some(&ground, options.year_places);
-    bench.against_rays("ground", &year, &few)?;
+    // How many days it takes is found at all places of the ground, as in a run over all of them.
+    let tiles = Tiles::near(&ground);
+    let fast = Fast::new(&occluders, &year.by_day, &tiles, TOLERANCE, || true);
+    let fast = fast.context("nobody stops it")?;
+    let name = format!("within {} % by {} days", 100.0 * TOLERANCE, fast.days());
+    bench.against_rays_with("ground", &year, &few, &[(name, &fast)])?;
     for period in [&short[2], &whole[0]] {
         talk(&format!("  instruction sets and threads, {}", period.name));
         bench.by_level(period, &ground)?;
@@ -192,36 +200,60 @@ struct Bench<'a> {
 
 impl Bench<'_> {
     fn against_rays(&mut self, at: &str, period: &Period, places: &[Point3]) -> anyhow::Result<()> {
+        self.against_rays_with(at, period, places, &[])
+    }
+
+    /// Others of ours, by name, are asked in the same rounds.
+    fn against_rays_with(
+        &mut self,
+        at: &str,
+        period: &Period,
+        places: &[Point3],
+        others: &[(String, &Fast<'_>)],
+    ) -> anyhow::Result<()> {
         if places.is_empty() {
             return Ok(());
         }
         let exact = Exact::new(self.occluders, &period.sheets);
         let mut contestants = vec![Contestant::new("exact", |places| exact.seconds(places))];
+        contestants.extend(others.iter().map(|&(ref name, fast)| {
+            Contestant::new(name.clone(), move |places| fast.seconds(places))
+        }));
+        let own = contestants.len();
         contestants.extend(self.rays.contestants(&self.skies.sky, period));
         let outcomes = contest(&contestants, places, self.rounds)?;
-        let seconds = |k: usize| &outcomes[k].seconds;
-        let best = (outcomes[2..].iter().filter_map(|o| o.micros))
-            .min_by(|a, b| a.median.total_cmp(&b.median));
-        let packets = outcomes[2..]
-            .iter()
-            .map(|o| Difference::of(&o.seconds, seconds(1)));
-        let timed = |(who, outcome): (&Contestant<'_>, &timing::Outcome)| Timed {
-            contestant: who.name.clone(),
-            micros: outcome.micros,
-        };
-        self.report.jobs.push(JobRecord {
-            bench: "shadows",
-            city: self.name.to_owned(),
-            job: format!("{at}, {}", period.name),
-            places: places.len(),
-            rays: period.samples.count(),
-            times: contestants.iter().zip(&outcomes).map(timed).collect(),
-            over_single: Ratio::of(outcomes[1].micros, outcomes[0].micros),
-            over_packets: Ratio::of(best, outcomes[0].micros),
-            mean_seconds: seconds(0).iter().sum::<f64>() / places.len() as f64,
-            sampling: Difference::of(seconds(0), seconds(1)),
-            packets: packets.max_by(|a, b| a.most.total_cmp(&b.most)),
-        });
+        let (ours, rays) = outcomes.split_at(own);
+        let (single, packets) = (&rays[0], &rays[1..]);
+        let best =
+            (packets.iter().filter_map(|o| o.micros)).min_by(|a, b| a.median.total_cmp(&b.median));
+        for (who, outcome) in contestants.iter().zip(ours) {
+            let timed = |who: &str, outcome: &timing::Outcome| Timed {
+                contestant: who.to_owned(),
+                micros: outcome.micros,
+            };
+            let theirs = contestants[own..].iter().zip(rays);
+            let off = (packets.iter()).map(|o| Difference::of(&o.seconds, &single.seconds));
+            let name = match who.name.as_str() {
+                "exact" => String::new(),
+                name => format!(", {name}"),
+            };
+            self.report.jobs.push(JobRecord {
+                bench: "shadows",
+                city: self.name.to_owned(),
+                job: format!("{at}, {}{name}", period.name),
+                places: places.len(),
+                rays: period.samples.count(),
+                times: [timed("exact", outcome)]
+                    .into_iter()
+                    .chain(theirs.map(|(who, outcome)| timed(&who.name, outcome)))
+                    .collect(),
+                over_single: Ratio::of(single.micros, outcome.micros),
+                over_packets: Ratio::of(best, outcome.micros),
+                mean_seconds: outcome.seconds.iter().sum::<f64>() / places.len() as f64,
+                sampling: Difference::of(&outcome.seconds, &single.seconds),
+                packets: off.max_by(|a, b| a.most.total_cmp(&b.most)),
+            });
+        }
         Ok(())
     }
 

@@ -11,6 +11,7 @@ mod day;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 
 use crate::exact::{Exact, by_tiles};
@@ -82,10 +83,21 @@ impl<'a> Fast<'a> {
         self.refined.load(Ordering::Relaxed)
     }
 
-    /// How many seconds each place of some of the tiles lies in shadow, see [`Tiles::range`].
+    /// How many seconds each place lies in shadow. As with [`Exact::seconds`], neighbours should come one after
+    /// another.
+    #[must_use]
+    pub fn seconds(&self, places: &[Point3]) -> Vec<f64> {
+        self.each(&places.chunks(PLACES).collect::<Vec<_>>())
+    }
+
+    /// The same for some of the tiles, see [`Tiles::range`].
     #[must_use]
     pub fn seconds_of(&self, tiles: &Tiles, which: std::ops::Range<usize>) -> Vec<f64> {
-        by_tiles(&tiles.lists(which), |places, seconds, room| {
+        self.each(&tiles.lists(which))
+    }
+
+    fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
+        by_tiles(lists, |places, seconds, room| {
             if self.some.is_empty() || !self.by_some(places, seconds, room) {
                 self.every.tile(places, seconds, room);
                 self.refined.fetch_add(places.len(), Ordering::Relaxed);
@@ -94,12 +106,7 @@ impl<'a> Fast<'a> {
     }
 
     /// Whether the days that are taken tell.
-    fn by_some(
-        &self,
-        places: &[ombra_geometry::Point3],
-        seconds: &mut [f64],
-        room: &mut Room,
-    ) -> bool {
+    fn by_some(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) -> bool {
         seconds.fill(0.0);
         let mut squares = [0.0; PLACES];
         let (mut last, mut own) = ([0.0; PLACES], [0.0; PLACES]);

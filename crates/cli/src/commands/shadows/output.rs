@@ -203,6 +203,17 @@ pub(super) fn write(
                 env!("CARGO_PKG_VERSION"),
                 bound(args, when, measured)
             ),
+            // Of a season nobody counts minutes.
+            unit: if when.days > 2 {
+                Unit::Hours
+            } else {
+                Unit::Minutes
+            },
+            blank: if city.buildings.is_empty() {
+                "Not ground".to_owned()
+            } else {
+                String::new()
+            },
             max: None,
             ..MapStyle::default()
         };

@@ -44,6 +44,8 @@ pub struct MapStyle {
     pub footer: String,
     /// The unit of the legend.
     pub unit: Unit,
+    /// What the grey of places without a value is called; "Building" where this is empty.
+    pub blank: String,
     /// What the dark end of the legend stands for, in `unit`; more is as dark. `None`, or what is not
     /// more than 0: the largest value, rounded up. Set it where pictures are to be compared.
     pub max: Option<f32>,
@@ -101,7 +103,13 @@ pub fn map_picture(raster: &Raster<'_>, style: &MapStyle) -> ImageBuffer {
 
     let [left, right] = [margin, margin + content].map(i64::from);
     let y = i64::from(legend_top);
-    legend.draw(&mut canvas, left, y, scale, ground.has_buildings());
+    let blank = if style.blank.is_empty() {
+        "Building"
+    } else {
+        &style.blank
+    };
+    let blank = ground.has_buildings().then_some(blank);
+    legend.draw(&mut canvas, left, y, scale, blank);
     let arrow_left = right - i64::from(arrow::WIDTH * scale);
     arrow::draw(&mut canvas, arrow_left, y, scale);
     let bar = ScaleBar::new(ground.metres_per_pixel(), scale);

@@ -59,6 +59,7 @@ fn style() -> MapStyle {
             .to_owned(),
         unit: Unit::Minutes,
         max: None,
+        blank: String::new(),
     }
 }
 
@@ -113,6 +114,7 @@ fn any_raster_and_any_style_make_a_picture() {
         subtitle: "x".repeat(100_000),
         footer: "\n".to_owned(),
         unit: Unit::Hours,
+        blank: "No ground".to_owned(),
         max: Some(f32::NAN),
     };
     for value in [f32::NAN, 0.0, -5.0, f32::MIN_POSITIVE, f32::MAX] {
