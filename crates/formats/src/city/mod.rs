@@ -11,8 +11,7 @@
 //!   sequence (CityJSONSeq), a feature a line.
 //! - **OpenStreetMap** XML (`.osm`) and PBF (`.osm.pbf`): closed ways and multipolygons tagged
 //!   `building` or `building:part`. Parts stand in place of the outline that they lie in.
-//!
-//! - **GeoTIFF**: a surface model ([`elevation`](crate::elevation)), of which all is ground, roofs as
+//! - **GeoTIFF**: a surface model ([`crate::elevation`]), of which all is ground, roofs as
 //!   well; with terrain below it see [`City::of_surface`].
 //!
 //! Which of them a file is, its content says and not its name; each may be packed with gzip.
