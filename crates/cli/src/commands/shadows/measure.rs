@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use ombra::accrual::{Exact, Occluders, Sampled, Samples, Tiles};
+use ombra::accrual::{Exact, Occluders, Sampled, Tiles};
 use ombra::city::Facet;
 use ombra::pipeline::Cpu;
 
@@ -40,22 +40,32 @@ pub(super) fn measure(
             let occluders = cpu.install(|| Occluders::new(facets));
             let exact = cpu.install(|| Exact::new(&occluders, &when.sheets()));
             let part = |which| cpu.install(|| exact.seconds_of(tiles, which));
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+            in_parts(args, when, tiles, begun.elapsed().as_secs_f64(), stop, part)
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
-            let samples = cpu.install(|| Samples::new(&when.sky, &when.spans, args.step));
+            let samples = cpu.install(|| when.samples(args.step));
             let part = |which| {
                 let places = &tiles.places()[tiles.range(which)];
-                cpu.install(|| sampled.seconds(&samples, places))
+                cpu.install(|| {
+                    let mut sums = vec![0.0; places.len()];
+                    for samples in &samples {
+                        let seconds = sampled.seconds(samples, places);
+                        sums.iter_mut()
+                            .zip(seconds)
+                            .for_each(|(sum, own)| *sum += own);
+                    }
+                    sums
+                })
             };
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, part)
+            in_parts(args, when, tiles, begun.elapsed().as_secs_f64(), stop, part)
         }
     }
 }
 
 fn in_parts(
     args: &ShadowsArgs,
+    when: &When,
     tiles: &Tiles,
     build_seconds: f64,
     stop: &AtomicBool,
@@ -63,6 +73,8 @@ fn in_parts(
 ) -> Measured {
     let bar = Jobs::new(!args.quiet && io::stderr().is_terminal());
     let total = tiles.places().len();
+    // Each of the points that stand for the sun counts by its share.
+    let each_minute = 60.0 * when.suns.len() as f64;
     let mut minutes = Vec::with_capacity(total);
     let begun = Instant::now();
     let (mut tile, mut count) = (0, 64);
@@ -72,7 +84,7 @@ fn in_parts(
         minutes.extend(
             part(tile..end)
                 .into_iter()
-                .map(|seconds| (seconds / 60.0) as f32),
+                .map(|seconds| (seconds / each_minute) as f32),
         );
         tile = end;
         // So many that a part takes about as long as it should.

@@ -20,6 +20,7 @@ use ombra::formats::can_write_whole;
 use ombra::pipeline::Cpu;
 use ombra::sun::Place;
 
+use args::Method;
 pub(crate) use args::ShadowsArgs;
 use measure::{Measured, measure};
 use output::{Statistics, summary};
@@ -71,7 +72,8 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let begun = Instant::now();
     let site = cpu.install(|| Site::read(args))?;
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
-    let when = cpu.install(|| When::new(&args.when, place, args.step))?;
+    let step = (args.method == Method::Sampled).then_some(args.step);
+    let when = cpu.install(|| When::new(&args.when, place, step))?;
     let grid = match args.area {
         Some(area) => grid_over(area, args.cell, site.origin()),
         None => site.grid(args.cell)?,

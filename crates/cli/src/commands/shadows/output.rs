@@ -27,6 +27,8 @@ pub(super) struct Statistics<'a> {
     days: usize,
     /// Hours in which the sun counts.
     sun_hours: f64,
+    /// Points that stand for the sun: 1, or those of its disc.
+    sun_points: usize,
     buildings: usize,
     findings: usize,
     width: u32,
@@ -69,6 +71,7 @@ impl<'a> Statistics<'a> {
             longitude: city.origin.longitude(),
             days: when.days,
             sun_hours: when.hours(),
+            sun_points: when.suns.len(),
             buildings: city.buildings.len(),
             findings: city.findings.len(),
             width: grid.width,
@@ -125,13 +128,17 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
 }
 
 /// What is known of the times, for people.
-fn bound(args: &ShadowsArgs) -> String {
+fn bound(args: &ShadowsArgs, when: &When) -> String {
+    let sun = when.sun();
     match args.method {
         Method::Exact => {
-            "exact in time, a day to 1 s and to 0.05 s in the mean, for a sun that is a point"
-                .to_owned()
+            format!(
+                "exact in time, a day to 1 s and to 0.05 s in the mean, for a sun that is {sun}"
+            )
         }
-        Method::Sampled => format!("one sample every {} s", args.step),
+        Method::Sampled => {
+            format!("one sample every {} s, for a sun that is {sun}", args.step)
+        }
     }
 }
 
@@ -159,9 +166,10 @@ pub(super) fn write(
             entry("when", when.text.clone()),
             entry("time_zone", when.zone.clone()),
             entry("days", when.days.to_string()),
+            entry("sun", when.sun()),
             entry("sun_hours", format!("{:.6}", when.hours())),
             entry("method", args.method.name().to_owned()),
-            entry("bound", bound(args)),
+            entry("bound", bound(args, when)),
             entry("unit", "minutes in shadow".to_owned()),
         ];
         write_geotiff(path, &raster, &metadata)?;
@@ -174,7 +182,7 @@ pub(super) fn write(
         let style = MapStyle {
             title: format!("Shadow: {name}"),
             subtitle: format!("{} ({})", when.text, when.zone),
-            footer: format!("ombra {}; {}", env!("CARGO_PKG_VERSION"), bound(args)),
+            footer: format!("ombra {}; {}", env!("CARGO_PKG_VERSION"), bound(args, when)),
             max: None,
             ..MapStyle::default()
         };

@@ -1,8 +1,10 @@
 //! From what was typed to stretches of time and the way of the sun.
 
 use anyhow::bail;
+use ombra::accrual::Samples;
 use ombra::sun::{
-    Calendar, Days, Hours, Months, Place, Refraction, Sheet, Sky, Span, SunError, Weekdays, Window,
+    Calendar, Days, Disc, Hours, MAX_DAYS, Months, Place, Refraction, Sheet, Sky, Span, SunError,
+    Weekdays, Window,
 };
 use rayon::prelude::*;
 
@@ -16,14 +18,15 @@ const MOST_SAMPLES: f64 = 1e7;
 pub(super) struct When {
     pub(super) days: usize,
     pub(super) spans: Vec<Span>,
-    pub(super) sky: Sky,
+    /// The points that stand for the sun, each for the same share of it: one, or those of its disc.
+    pub(super) suns: Vec<Sky>,
     pub(super) zone: String,
     /// For people: which days and hours.
     pub(super) text: String,
 }
 
 impl When {
-    pub(super) fn new(args: &WhenArgs, place: Place, step: f64) -> anyhow::Result<Self> {
+    pub(super) fn new(args: &WhenArgs, place: Place, step: Option<f64>) -> anyhow::Result<Self> {
         let zone = match &args.time_zone {
             Some(name) => jiff::tz::TimeZone::get(name).unwrap_or_else(|_| {
                 wrong_usage(&format!(
@@ -59,7 +62,20 @@ impl When {
         let spans: Vec<Span> = (days.dates().par_iter())
             .flat_map_iter(|&date| hours.spans(&sky, &zone, date))
             .collect();
-        let samples = spans.iter().map(Span::seconds).sum::<f64>() / step;
+        let suns = if args.disc {
+            Disc::default().skies(&sky)
+        } else {
+            vec![sky]
+        };
+        let most_days = MAX_DAYS / suns.len();
+        if days.dates().len() > most_days {
+            wrong_usage(&format!(
+                "--disc: {} days are more than {most_days}: take fewer days",
+                days.dates().len()
+            ));
+        }
+        let seconds = spans.iter().map(Span::seconds).sum::<f64>();
+        let samples = step.map_or(0.0, |step| seconds / step * suns.len() as f64);
         if samples > MOST_SAMPLES {
             wrong_usage(&format!(
                 "--step: {samples:.0} samples are more than {MOST_SAMPLES}: take longer steps or fewer days"
@@ -73,7 +89,7 @@ impl When {
         Ok(Self {
             days: days.dates().len(),
             spans,
-            sky,
+            suns,
             zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
             text: text(args, &named),
         })
@@ -89,20 +105,48 @@ impl When {
         const STEP: f64 = 600.0;
         // Where the sun turns between two looks, as on a polar night, it is lower by no more than this.
         const TURN: f64 = 3e-4;
+        // No point of the disc is farther from the middle.
+        const RADIUS: f64 = 4.8e-3;
+        let below = if self.is_disc() { TURN + RADIUS } else { TURN };
+        // The points that stand for the sun have the one in the middle first.
+        let sky = self.suns[0];
         let of_span = |span: &Span| {
             let (_, middles) = span.middles(STEP);
             let instants = middles.chain([span.start, span.end]);
-            let altitude = |instant| self.sky.direction(instant)[2].clamp(-1.0, 1.0).asin();
+            let altitude = |instant| sky.direction(instant)[2].clamp(-1.0, 1.0).asin();
             instants.map(altitude).fold(f64::INFINITY, f64::min)
         };
         let lowest = self.spans.par_iter().map(of_span);
-        lowest.reduce(|| f64::INFINITY, f64::min) - TURN
+        lowest.reduce(|| f64::INFINITY, f64::min) - below
     }
 
     pub(super) fn sheets(&self) -> Vec<Sheet> {
         (self.spans.par_iter())
-            .flat_map_iter(|&span| Sheet::cover(&self.sky, span))
+            .flat_map_iter(|&span| {
+                self.suns
+                    .iter()
+                    .flat_map(move |sun| Sheet::cover(sun, span))
+            })
             .collect()
+    }
+
+    pub(super) fn samples(&self, step: f64) -> Vec<Samples> {
+        (self.suns.par_iter())
+            .map(|sun| Samples::new(sun, &self.spans, step))
+            .collect()
+    }
+
+    pub(super) const fn is_disc(&self) -> bool {
+        self.suns.len() > 1
+    }
+
+    /// What the sun is taken for, for people.
+    pub(super) fn sun(&self) -> String {
+        if self.is_disc() {
+            format!("a disc of {} points", self.suns.len())
+        } else {
+            "a point".to_owned()
+        }
     }
 }
 
