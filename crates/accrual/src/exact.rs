@@ -25,7 +25,8 @@ pub struct Exact<'a> {
 }
 
 impl<'a> Exact<'a> {
-    /// For stretches of time that do not overlap.
+    /// For stretches of time that do not overlap; those of several suns, as the points of a [`Disc`](ombra_sun::Disc), may: then
+    /// seconds are the sum of all.
     #[must_use]
     pub fn new(occluders: &'a Occluders, sheets: &[Sheet]) -> Self {
         let sheets = sheets.par_iter().filter(|sheet| !sheet.arcs().is_empty());

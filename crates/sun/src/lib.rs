@@ -24,7 +24,7 @@
 //!
 //! # Units
 //! Angles are degrees, azimuths clockwise from north; times are seconds; directions are (east,
-//! north, up) at the place. The sun is its centre, a point. Single places of a city differ in
+//! north, up) at the place. The sun is its centre, a point, or each of the points of a [`Disc`]. Single places of a city differ in
 //! where they are by far less than the sun's position is known: one [`Sky`] serves them all.
 
 mod arc;
@@ -32,6 +32,7 @@ mod calendar;
 mod civil;
 mod crossing;
 mod days;
+mod disc;
 mod error;
 mod hours;
 mod instant;
@@ -46,6 +47,7 @@ mod window;
 pub use arc::Arc;
 pub use calendar::Calendar;
 pub use days::{Days, MAX_DAYS, YEARS};
+pub use disc::Disc;
 pub use error::SunError;
 pub use hours::{Hours, MAX_WINDOWS};
 pub use instant::Instant;

@@ -8,6 +8,7 @@ use solar_positioning::{
     Location, PreparedPositions, RefractionCorrection, SolarPositions, delta_t,
 };
 
+use crate::disc::{beside, lifted, not_below_horizon};
 use crate::{Instant, Place, SunError};
 
 /// Seconds of a day.
@@ -86,6 +87,8 @@ pub struct Sky {
     refraction: Refraction,
     correction: Option<RefractionCorrection>,
     delta_t: Option<f64>,
+    /// Which point of the sun's disc directions are to, in radii; its middle if none.
+    disc_point: Option<[f64; 2]>,
 }
 
 impl Sky {
@@ -99,6 +102,7 @@ impl Sky {
             refraction,
             correction: refraction.correction()?,
             delta_t: None,
+            disc_point: None,
         })
     }
 
@@ -110,6 +114,19 @@ impl Sky {
             delta_t: seconds.is_finite().then(|| seconds.clamp(-1e5, 1e5)),
             ..self
         }
+    }
+
+    /// The same with directions to a point of the sun's disc.
+    pub(crate) fn at_disc_point(self, at: [f64; 2]) -> Self {
+        Self {
+            disc_point: Some(at),
+            ..self
+        }
+    }
+
+    /// Whether directions are to a point of the sun's disc.
+    pub(crate) const fn is_at_disc_point(&self) -> bool {
+        self.disc_point.is_some()
     }
 
     /// Which place.
@@ -124,26 +141,51 @@ impl Sky {
         self.refraction
     }
 
-    /// Where the sun is, with parallax and, if asked for, refraction. Takes some 8 µs.
+    /// Where the centre of the sun is, with parallax and, if asked for, refraction. Takes some 8 µs.
     ///
     /// Good to 0.0003° over the years -2000 to 6000, but for ΔT, which is an estimate; before -500
     /// and after 3000 that of the nearest year is taken, and beyond SPA's years the sun of the
     /// nearest instant within them.
     #[must_use]
     pub fn at(&self, instant: Instant) -> Sun {
-        let seen = prepared(instant, self.delta_t)
-            .at(self.location(), self.place.height, self.correction)
+        self.seen(&prepared(instant, self.delta_t), self.correction)
+    }
+
+    /// The unit vector to the sun: (east, north, up). That is its centre, or a point of its [`Disc`](crate::Disc): where such a
+    /// point has not risen yet or has set, it is the one on the horizon above it. Air lifts all of
+    /// the disc by as much as its centre.
+    #[must_use]
+    pub fn direction(&self, instant: Instant) -> [f64; 3] {
+        let toward = self.toward(instant);
+        if self.is_at_disc_point() {
+            not_below_horizon(toward)
+        } else {
+            toward
+        }
+    }
+
+    /// The same wherever the horizon is.
+    pub(crate) fn toward(&self, instant: Instant) -> [f64; 3] {
+        let Some(point) = self.disc_point else {
+            return self.at(instant).direction();
+        };
+        let prepared = prepared(instant, self.delta_t);
+        let middle = self.seen(&prepared, None);
+        let distance = prepared.earth_radius_vector().expect("SPA knows it");
+        let latitude = self.place.latitude.to_radians();
+        let lift = self.seen(&prepared, self.correction).altitude - middle.altitude;
+        let bare = beside(middle.direction(), latitude, distance, point);
+        lifted(bare, lift.to_radians())
+    }
+
+    fn seen(&self, prepared: &PreparedPositions, air: Option<RefractionCorrection>) -> Sun {
+        let seen = prepared
+            .at(self.location(), self.place.height, air)
             .expect("checked in `new`");
         Sun {
             azimuth: seen.azimuth(),
             altitude: seen.elevation_angle(),
         }
-    }
-
-    /// The unit vector to the sun: (east, north, up).
-    #[must_use]
-    pub fn direction(&self, instant: Instant) -> [f64; 3] {
-        self.at(instant).direction()
     }
 
     /// True (apparent) solar time, seconds after true midnight, 0 to 86 400: what a sundial shows.

@@ -132,6 +132,7 @@ impl Sheet {
         // Arcs of an instant's length would be lost in rounding.
         let least = (duration / 15.0).floor().clamp(1.0, 4.0);
         let most = match sky.refraction() {
+            Refraction::None if sky.is_at_disc_point() => MAX_ARCS - 2,
             Refraction::None => MAX_ARCS,
             Refraction::Standard { .. } => MAX_ARCS - SPARE,
         };
@@ -151,6 +152,9 @@ impl Sheet {
             };
             arcs.push(Arc::between(sky, begin, stop, from, to));
             (from, begin) = (to, stop);
+        }
+        if sky.is_at_disc_point() {
+            cut_at_horizon(sky, &mut arcs);
         }
         if sky.refraction() != Refraction::None {
             refine(sky, &mut arcs);
@@ -173,11 +177,38 @@ fn refine(sky: &Sky, arcs: &mut Vec<Arc>) {
             at += 1;
             continue;
         }
-        let middle = arc.start + 0.5 * length;
-        let sun = sky.direction(Instant::from_seconds(middle));
-        arcs[at] = Arc::between(sky, arc.start, middle, arc.from, sun);
-        arcs.insert(at + 1, Arc::between(sky, middle, arc.end, sun, arc.to));
+        cut(sky, arcs, at, arc.start + 0.5 * length);
     }
+}
+
+/// Cuts arcs in two where a point of the sun's disc rises or sets, for it goes along the horizon until then: that happens once
+/// at either end of a sheet, at most.
+fn cut_at_horizon(sky: &Sky, arcs: &mut Vec<Arc>) {
+    let height = |seconds: f64| sky.toward(Instant::from_seconds(seconds))[2];
+    let (start, end) = (arcs[0].start, arcs[arcs.len() - 1].end);
+    if height(start) >= 0.0 && height(end) >= 0.0 {
+        return;
+    }
+    for event in crossings(height, start, end) {
+        // Where it is still on the horizon: were it above by rounding, the arc along the horizon would sag below it.
+        let seconds = if event.rising {
+            event.before
+        } else {
+            event.after
+        };
+        let is_within = |arc: &Arc| arc.start < seconds && seconds < arc.end;
+        if let Some(at) = arcs.iter().position(is_within) {
+            cut(sky, arcs, at, seconds);
+        }
+    }
+}
+
+/// Cuts an arc in two at an instant within it.
+fn cut(sky: &Sky, arcs: &mut Vec<Arc>, at: usize, seconds: f64) {
+    let arc = arcs[at];
+    let sun = sky.direction(Instant::from_seconds(seconds));
+    arcs[at] = Arc::between(sky, arc.start, seconds, arc.from, sun);
+    arcs.insert(at + 1, Arc::between(sky, seconds, arc.end, sun, arc.to));
 }
 
 /// The value within its limits; the lower one for what is no number.

@@ -2,6 +2,7 @@
 
 mod against_rays;
 mod closed_forms;
+mod disc;
 mod faces;
 mod fast;
 mod numbers;

@@ -1,6 +1,7 @@
 //! Where the sun stands, held against facts, published values and laws.
 
 mod days;
+mod disc;
 mod facts;
 mod hours;
 mod place;

@@ -65,7 +65,7 @@ fn side(arc: &Arc, share: f64) -> f64 {
 }
 
 /// The laws that a sheet promises, looked for between the knots as well.
-fn lawful(sky: &Sky, span: Span, sheets: &[Sheet]) {
+pub(crate) fn lawful(sky: &Sky, span: Span, sheets: &[Sheet]) {
     let what = format!("{sky:?} {span:?}");
     assert!(!sheets.is_empty(), "{what}");
     let mut at = span.start;

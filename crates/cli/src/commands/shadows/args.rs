@@ -175,6 +175,10 @@ pub(crate) struct WhenArgs {
     /// Lift the sun by refraction, as air at sea level does
     #[arg(long)]
     pub(crate) refraction: bool,
+
+    /// The sun as a disc, not a point: minutes in shadow count by how much of it is covered; takes 7 times as long
+    #[arg(long)]
+    pub(crate) disc: bool,
 }
 
 impl WhenArgs {

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use ombra::accrual::{Difference, Exact, Fast, Occluders, Sampled, Samples, Tiles};
+use ombra::accrual::{Difference, Exact, Fast, Occluders, Sampled, Tiles};
 use ombra::city::Facet;
 use ombra::pipeline::Cpu;
 use serde::Serialize;
@@ -76,7 +76,15 @@ pub(super) fn measure(
             let occluders = cpu.install(|| Occluders::new(facets));
             let exact = cpu.install(|| Exact::new(&occluders, &when.sheets().concat()));
             let part = |which| cpu.install(|| exact.seconds_of(tiles, which));
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, kept, part)
+            in_parts(
+                args,
+                when,
+                tiles,
+                begun.elapsed().as_secs_f64(),
+                stop,
+                kept,
+                part,
+            )
         }
         Method::Fast => {
             let occluders = cpu.install(|| Occluders::new(facets));
@@ -86,10 +94,10 @@ pub(super) fn measure(
             let fast = cpu.install(|| Fast::new(&occluders, &days, tiles, tolerance, is_wanted));
             let built = begun.elapsed().as_secs_f64();
             let Some(fast) = fast else {
-                return in_parts(args, tiles, built, stop, kept, |_| Vec::new());
+                return in_parts(args, when, tiles, built, stop, kept, |_| Vec::new());
             };
             let part = |which| cpu.install(|| fast.seconds_of(tiles, which));
-            let measured = in_parts(args, tiles, built, stop, kept, part);
+            let measured = in_parts(args, when, tiles, built, stop, kept, part);
             Measured {
                 some_days: Some(SomeDays {
                     days: fast.days(),
@@ -101,18 +109,36 @@ pub(super) fn measure(
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
-            let samples = cpu.install(|| Samples::new(&when.sky, &when.spans, args.step));
+            let samples = cpu.install(|| when.samples(args.step));
             let part = |which| {
                 let places = &tiles.places()[tiles.range(which)];
-                cpu.install(|| sampled.seconds(&samples, places))
+                cpu.install(|| {
+                    let mut sums = vec![0.0; places.len()];
+                    for samples in &samples {
+                        let seconds = sampled.seconds(samples, places);
+                        sums.iter_mut()
+                            .zip(seconds)
+                            .for_each(|(sum, own)| *sum += own);
+                    }
+                    sums
+                })
             };
-            in_parts(args, tiles, begun.elapsed().as_secs_f64(), stop, kept, part)
+            in_parts(
+                args,
+                when,
+                tiles,
+                begun.elapsed().as_secs_f64(),
+                stop,
+                kept,
+                part,
+            )
         }
     }
 }
 
 fn in_parts(
     args: &ShadowsArgs,
+    when: &When,
     tiles: &Tiles,
     build_seconds: f64,
     stop: &AtomicBool,
@@ -121,6 +147,8 @@ fn in_parts(
 ) -> Measured {
     let bar = Jobs::new(!args.quiet && io::stderr().is_terminal());
     let total = tiles.places().len();
+    // Each of the points that stand for the sun counts by its share.
+    let each_minute = 60.0 * when.suns.len() as f64;
     let mut minutes = Vec::with_capacity(total);
     if let Some((_, before)) = kept {
         minutes.append(before);
@@ -135,7 +163,7 @@ fn in_parts(
         minutes.extend(
             part(tile..end)
                 .into_iter()
-                .map(|seconds| (seconds / 60.0) as f32),
+                .map(|seconds| (seconds / each_minute) as f32),
         );
         tile = end;
         // So many that a part takes about as long as it should.

@@ -30,6 +30,8 @@ pub(super) struct Statistics<'a> {
     days: usize,
     /// Hours in which the sun counts.
     sun_hours: f64,
+    /// Points that stand for the sun: 1, or those of its disc.
+    sun_points: usize,
     buildings: usize,
     findings: usize,
     /// What is measured on: ground, roof, facade, points.
@@ -88,6 +90,7 @@ impl<'a> Statistics<'a> {
             longitude: city.origin.longitude(),
             days: when.days,
             sun_hours: when.hours(),
+            sun_points: when.suns.len(),
             buildings: city.buildings.len(),
             findings: city.findings.len(),
             on: places.name(),
@@ -153,15 +156,18 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
 
 /// What is known of the times, for people.
 fn bound(args: &ShadowsArgs, when: &When, measured: &Measured) -> String {
-    let exact = "exact in time, a day to 1 s and to 0.05 s in the mean, for a sun that is a point";
+    let sun = when.sun();
+    let exact = "exact in time, a day to 1 s and to 0.05 s in the mean";
     match (args.method, measured.some_days) {
         (Method::Fast, Some(some)) if some.days > 0 => format!(
             "{} of {} days stand for all, within {} % of the time that the sun is up (at {} places compared with every \
-             day, {:.2} % at most); for a sun that is a point",
+             day, {:.2} % at most); for a sun that is {sun}",
             some.days, when.days, args.tolerance, some.compared.places, some.compared.most
         ),
-        (Method::Exact | Method::Fast, _) => exact.to_owned(),
-        (Method::Sampled, _) => format!("one sample every {} s", args.step),
+        (Method::Exact | Method::Fast, _) => format!("{exact}, for a sun that is {sun}"),
+        (Method::Sampled, _) => {
+            format!("one sample every {} s, for a sun that is {sun}", args.step)
+        }
     }
 }
 
@@ -227,7 +233,7 @@ pub(super) fn write(
 }
 
 /// What says how the numbers came about.
-fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> [(String, String); 9] {
+fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> [(String, String); 10] {
     let entry = |key: &str, value: String| (key.to_owned(), value);
     [
         entry("command", command()),
@@ -238,6 +244,7 @@ fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> [(String, S
         entry("when", when.text.clone()),
         entry("time_zone", when.zone.clone()),
         entry("days", when.days.to_string()),
+        entry("sun", when.sun()),
         entry("sun_hours", format!("{:.6}", when.hours())),
         entry("method", args.method.name().to_owned()),
         entry("bound", bound(args, when, measured)),

@@ -174,8 +174,8 @@ impl Job {
         let mut hours = Content::default();
         for span in &when.spans {
             for instant in [span.start, span.end] {
-                let direction = when.sky.direction(instant);
-                for number in [instant.seconds()].iter().chain(&direction) {
+                hours.take(&instant.seconds().to_le_bytes());
+                for number in when.suns.iter().flat_map(|sun| sun.direction(instant)) {
                     hours.take(&number.to_le_bytes());
                 }
             }

@@ -102,7 +102,7 @@ impl Reach {
 fn altitudes(when: &When) -> Vec<(f64, f64)> {
     let step = LOOK.max(3600.0 * when.hours() / MOST_LOOKS);
     let look = |instant: Instant, seconds| {
-        let [east, north, up] = when.sky.direction(instant);
+        let [east, north, up] = when.suns[0].direction(instant);
         (up.atan2(east.hypot(north)).to_degrees(), seconds)
     };
     (when.spans.par_iter())

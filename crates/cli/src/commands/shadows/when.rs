@@ -1,8 +1,10 @@
 //! From what was typed to stretches of time and the way of the sun.
 
 use anyhow::bail;
+use ombra::accrual::Samples;
 use ombra::sun::{
-    Calendar, Days, Hours, Months, Place, Refraction, Sheet, Sky, Span, SunError, Weekdays, Window,
+    Calendar, Days, Disc, Hours, MAX_DAYS, Months, Place, Refraction, Sheet, Sky, Span, SunError,
+    Weekdays, Window,
 };
 use rayon::prelude::*;
 
@@ -18,7 +20,8 @@ pub(super) struct When {
     pub(super) spans: Vec<Span>,
     /// Where the spans of each day end.
     ends: Vec<usize>,
-    pub(super) sky: Sky,
+    /// The points that stand for the sun, each for the same share of it: one, or those of its disc.
+    pub(super) suns: Vec<Sky>,
     pub(super) zone: String,
     /// For people: which days and hours.
     pub(super) text: String,
@@ -63,8 +66,20 @@ impl When {
             .map(|&date| hours.spans(&sky, &zone, date))
             .collect();
         let spans = by_day.concat();
+        let suns = if args.disc {
+            Disc::default().skies(&sky)
+        } else {
+            vec![sky]
+        };
+        let most_days = MAX_DAYS / suns.len();
+        if days.dates().len() > most_days {
+            wrong_usage(&format!(
+                "--disc: {} days are more than {most_days}: take fewer days",
+                days.dates().len()
+            ));
+        }
         let seconds = spans.iter().map(Span::seconds).sum::<f64>();
-        let samples = step.map_or(0.0, |step| seconds / step);
+        let samples = step.map_or(0.0, |step| seconds / step * suns.len() as f64);
         if samples > MOST_SAMPLES {
             wrong_usage(&format!(
                 "--step: {samples:.0} samples are more than {MOST_SAMPLES}: take longer steps or fewer days"
@@ -84,7 +99,7 @@ impl When {
                 })
                 .collect(),
             spans,
-            sky,
+            suns,
             zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
             text: text(args, &named),
         })
@@ -100,17 +115,22 @@ impl When {
         const STEP: f64 = 600.0;
         // Where the sun turns between two looks, as on a polar night, it is lower by no more than this.
         const TURN: f64 = 3e-4;
+        // No point of the disc is farther from the middle.
+        const RADIUS: f64 = 4.8e-3;
+        let below = if self.is_disc() { TURN + RADIUS } else { TURN };
+        // The points that stand for the sun have the one in the middle first.
+        let sky = self.suns[0];
         let of_span = |span: &Span| {
             let (_, middles) = span.middles(STEP);
             let instants = middles.chain([span.start, span.end]);
-            let altitude = |instant| self.sky.direction(instant)[2].clamp(-1.0, 1.0).asin();
+            let altitude = |instant| sky.direction(instant)[2].clamp(-1.0, 1.0).asin();
             instants.map(altitude).fold(f64::INFINITY, f64::min)
         };
         let lowest = self.spans.par_iter().map(of_span);
-        lowest.reduce(|| f64::INFINITY, f64::min) - TURN
+        lowest.reduce(|| f64::INFINITY, f64::min) - below
     }
 
-    /// The way of the sun, day by day.
+    /// The way of the sun, day by day: of all points that stand for it.
     pub(super) fn sheets(&self) -> Vec<Vec<Sheet>> {
         let begins = [0].into_iter().chain(self.ends.iter().copied());
         let days: Vec<&[Span]> = begins
@@ -118,11 +138,30 @@ impl When {
             .map(|(begin, &end)| &self.spans[begin..end])
             .collect();
         let sheets = |spans: &&[Span]| {
-            (spans.iter())
-                .flat_map(|&span| Sheet::cover(&self.sky, span))
-                .collect()
+            let of_span =
+                |&span: &Span| (self.suns.iter()).flat_map(move |sun| Sheet::cover(sun, span));
+            spans.iter().flat_map(of_span).collect()
         };
         days.par_iter().map(sheets).collect()
+    }
+
+    pub(super) fn samples(&self, step: f64) -> Vec<Samples> {
+        (self.suns.par_iter())
+            .map(|sun| Samples::new(sun, &self.spans, step))
+            .collect()
+    }
+
+    pub(super) const fn is_disc(&self) -> bool {
+        self.suns.len() > 1
+    }
+
+    /// What the sun is taken for, for people.
+    pub(super) fn sun(&self) -> String {
+        if self.is_disc() {
+            format!("a disc of {} points", self.suns.len())
+        } else {
+            "a point".to_owned()
+        }
     }
 }
 

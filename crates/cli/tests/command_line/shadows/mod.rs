@@ -42,6 +42,33 @@ fn shadow_is_longer_in_winter_and_both_methods_agree() {
 }
 
 #[test]
+fn the_sun_as_a_disc_is_covered_in_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |more: &[&str]| {
+        let all = [&["demo", "--date", "2026-12-21", "--cell", "8"], more].concat();
+        json(folder.path(), &all)
+    };
+    let mean = |told: &Value| told["minutes_mean"].as_f64().unwrap();
+    let (point, disc) = (told(&[]), told(&["--disc", "-o", "disc.tif"]));
+    assert_eq!(
+        (&point["sun_points"], &disc["sun_points"]),
+        (&1.into(), &7.into())
+    );
+    assert_eq!(point["sun_hours"], disc["sun_hours"]);
+    // Edges of shadows grow soft, on both sides of where they were.
+    let apart = (mean(&point) - mean(&disc)).abs();
+    assert!(apart > 0.0 && apart < 1.0, "{apart}");
+    let most = disc["minutes_most"].as_f64().unwrap();
+    assert!(most <= 60.0 * disc["sun_hours"].as_f64().unwrap() + 1e-3);
+    let sampled = told(&["--disc", "--method", "sampled", "--step", "2min"]);
+    let apart = (mean(&sampled) - mean(&disc)).abs();
+    assert!(apart < 0.5, "{apart}");
+    let written = std::fs::read(folder.path().join("disc.tif")).unwrap();
+    let said = b"for a sun that is a disc of 7 points";
+    assert!(written.windows(said.len()).any(|bytes| bytes == said));
+}
+
+#[test]
 fn months_add_up_to_the_quarter_and_threads_change_no_byte() {
     let folder = tempfile::tempdir().unwrap();
     let mean = |date: &str| {
@@ -89,7 +116,28 @@ fn what_is_asked_wrongly_is_exit_code_2() {
         (&[day[0], day[1], "--year", "99"], "99"),
         (&[day[0], day[1], "--step", "0s"], "second"),
         (
-            &["--date", "2000-01-01..2090-01-01", "--step", "1s"],
+            &[
+                "--date",
+                "2000-01-01..2090-01-01",
+                "--method",
+                "sampled",
+                "--step",
+                "1s",
+            ],
+            "longer steps",
+        ),
+        (
+            &["--date", "2000-01-01..2029-12-31", "--disc"],
+            "--disc: 10958 days are more than 5228",
+        ),
+        (
+            &[
+                "--date",
+                "2020-01-01..2029-12-31",
+                "--disc",
+                "--method",
+                "sampled",
+            ],
             "longer steps",
         ),
         (&["--json"], "--date"),
