@@ -221,7 +221,6 @@ pub(super) fn write(
                 String::new()
             },
             max: None,
-            ..MapStyle::default()
         };
         let metadata = Metadata {
             version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
