@@ -69,6 +69,51 @@ fn the_sun_as_a_disc_is_covered_in_part() {
 }
 
 #[test]
+fn some_days_stand_for_a_year_and_say_how_well() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |more: &[&str]| {
+        let all = [&["demo", "--date", "2026", "--cell", "8"], more].concat();
+        json(folder.path(), &all)
+    };
+    let (every, some) = (told(&[]), told(&["--method", "fast", "-o", "year.tif"]));
+    let mean = |told: &Value| told["minutes_mean"].as_f64().unwrap();
+    let up = 60.0 * every["sun_hours"].as_f64().unwrap();
+    assert!((mean(&every) - mean(&some)).abs() < 0.001 * up);
+    assert_eq!(every.get("some_days"), None);
+    let found = &some["some_days"];
+    let days = found["days"].as_u64().unwrap();
+    assert!((5..180).contains(&days), "{days}");
+    let compared = &found["compared"];
+    assert!(compared["places"].as_u64().unwrap() > 100);
+    let most = compared["most"].as_f64().unwrap();
+    assert!(most > 0.0 && most <= 0.2, "{most}");
+    let written = std::fs::read(folder.path().join("year.tif")).unwrap();
+    let said = format!("{days} of 365 days stand for all, within 0.5 %");
+    assert!(
+        written
+            .windows(said.len())
+            .any(|bytes| bytes == said.as_bytes())
+    );
+
+    // Without a tolerance it is every day.
+    let all = told(&["--method", "fast", "--tolerance", "0"]);
+    assert_eq!(all["some_days"]["days"], 0);
+    assert_eq!(all["minutes_mean"], every["minutes_mean"]);
+    let wrong = [
+        "shadows",
+        "demo",
+        "--date",
+        "2026",
+        "--method",
+        "fast",
+        "--tolerance",
+        "half",
+    ];
+    let said = fail(folder.path(), &wrong, 2);
+    assert!(said.contains("0 to 10 percent are wanted"), "{said}");
+}
+
+#[test]
 fn months_add_up_to_the_quarter_and_threads_change_no_byte() {
     let folder = tempfile::tempdir().unwrap();
     let mean = |date: &str| {
