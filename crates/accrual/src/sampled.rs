@@ -10,6 +10,10 @@ use rayon::prelude::*;
 /// How many places go together.
 const TOGETHER: usize = 256;
 
+/// A change of light is found to so many seconds: in less the sun moves by no more than what a ray's direction is
+/// rounded by.
+const CHANGE: f64 = 1e-3;
+
 /// Measures the shadow of polygons at places by rays.
 #[derive(Debug)]
 pub struct Sampled {
@@ -49,6 +53,65 @@ impl Sampled {
                     }
                 }
             });
+        seconds
+    }
+
+    /// How many seconds each place lies in shadow, as truth to hold other methods against: rays look at the
+    /// ends of equal parts of each span, of `step` seconds or a little less, and where two that follow
+    /// one another differ, the change between them is found to a millisecond. What comes and goes between
+    /// two looks is not seen.
+    ///
+    /// # Panics
+    /// If `step` is not above 0.
+    #[must_use]
+    pub fn refined_seconds(
+        &self,
+        sky: &Sky,
+        spans: &[Span],
+        step: f64,
+        places: &[Point3],
+    ) -> Vec<f64> {
+        assert!(step > 0.0, "a step takes time");
+        let mut seconds = vec![0.0; places.len()];
+        for span in spans {
+            let count = (span.seconds() / step).ceil().max(1.0);
+            let each = span.seconds() / count;
+            let looks: Vec<(Instant, Vector3)> = (0..=count as usize)
+                .map(|k| span.start + k as f64 * each)
+                .map(|instant| (instant, toward(sky, instant)))
+                .collect();
+            let of_place = |&place: &Point3| self.refined(sky, &looks, place);
+            let of_span = places.par_iter().map(of_place);
+            (seconds.par_iter_mut().zip(of_span)).for_each(|(sum, own)| *sum += own);
+        }
+        seconds
+    }
+
+    fn refined(&self, sky: &Sky, looks: &[(Instant, Vector3)], place: Point3) -> f64 {
+        let is_dark = |way| self.accel.occluded(&Ray::new(place, way));
+        let mut seconds = 0.0;
+        let mut was_dark = is_dark(looks[0].1);
+        for pair in looks.windows(2) {
+            let [from, to] = [pair[0].0, pair[1].0];
+            let dark = is_dark(pair[1].1);
+            seconds += match (was_dark, dark) {
+                (true, true) => to - from,
+                (false, false) => 0.0,
+                _ => {
+                    let (mut low, mut high) = (from, to);
+                    while high - low > CHANGE {
+                        let middle = low + 0.5 * (high - low);
+                        if is_dark(toward(sky, middle)) == was_dark {
+                            low = middle;
+                        } else {
+                            high = middle;
+                        }
+                    }
+                    if dark { to - high } else { low - from }
+                }
+            };
+            was_dark = dark;
+        }
         seconds
     }
 }

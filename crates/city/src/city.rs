@@ -10,8 +10,7 @@ use crate::origin::Origin;
 use crate::polygon::edges;
 use crate::triangulate::pieces;
 
-/// Faces whose corners lie farther from their plane than this, in metres, are bent: their triangles
-/// are not joined.
+/// Faces whose corners lie farther from their plane than this, in metres, are bent.
 const FLAT: f64 = 0.01;
 
 /// Corners this close to the lowest, in metres, are as low.
@@ -133,7 +132,7 @@ fn push_faces(facets: &mut Vec<Facet>, faces: &Faces, [low, bottom]: [f32; 2], o
         };
         let corners: Vec<Point3> = face.corners().collect();
         cut.extend(
-            face_pieces(&face)
+            face_triangles(&face)
                 .into_iter()
                 .map(|piece| piece.map(|i| corners[i as usize])),
         );
@@ -145,15 +144,16 @@ fn push_faces(facets: &mut Vec<Facet>, faces: &Faces, [low, bottom]: [f32; 2], o
     }));
 }
 
-/// A face cut into pieces, seen along the axis that its plane faces most.
-pub(crate) fn face_pieces(face: &Face) -> Vec<[u32; 4]> {
+/// A face cut into triangles, whose last corner repeats, seen along the axis that its plane faces most.
+pub(crate) fn face_triangles(face: &Face) -> Vec<[u32; 4]> {
     let Some(plane) = Plane::of(&face.rings[0]) else {
         return Vec::new();
     };
     let rings: Vec<Vec<[f64; 2]>> = (face.rings.iter())
         .map(|ring| ring.iter().map(|&p| plane.seen(p)).collect())
         .collect();
-    pieces(&rings, is_flat(face))
+    // Those in one plane are joined later, across faces as well.
+    pieces(&rings, false)
 }
 
 /// Whether all corners lie in one plane, near enough.

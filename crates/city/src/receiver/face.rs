@@ -4,7 +4,7 @@ use ombra_geometry::{Point3, Vector3};
 
 use super::grid::{GridError, MAX_PLACES};
 use crate::building::{Face, Part, Prism, Surface};
-use crate::city::{City, Plane, face_pieces, is_flat};
+use crate::city::{City, Plane, face_triangles, is_flat};
 use crate::inside::Inside;
 use crate::polygon::{edges, is_inside};
 
@@ -165,17 +165,10 @@ fn flattened(face: &Face) -> Vec<Face> {
         return vec![face.clone()];
     }
     let corners: Vec<Point3> = face.corners().collect();
-    (face_pieces(face).into_iter())
-        .map(|[a, b, c, d]| {
-            let ring = if c == d {
-                vec![a, b, c]
-            } else {
-                vec![a, b, c, d]
-            };
-            Face {
-                rings: vec![ring.into_iter().map(|i| corners[i as usize]).collect()],
-                surface: face.surface,
-            }
+    (face_triangles(face).into_iter())
+        .map(|[a, b, c, _]| Face {
+            rings: vec![[a, b, c].map(|i| corners[i as usize]).to_vec()],
+            surface: face.surface,
         })
         .collect()
 }
@@ -299,7 +292,7 @@ impl Chart {
         let area = |[a, b, c]: [[f64; 2]; 3]| {
             ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
         };
-        (face_pieces(face).into_iter())
+        (face_triangles(face).into_iter())
             .map(|[a, b, c, _]| [a, b, c].map(|i| corners[i as usize]))
             .max_by(|a, b| area(*a).total_cmp(&area(*b)))
             .map(|triangle| [0, 1].map(|k| triangle.iter().map(|p| p[k]).sum::<f64>() / 3.0))
