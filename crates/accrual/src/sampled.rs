@@ -101,7 +101,7 @@ impl Sampled {
                     let (mut low, mut high) = (from, to);
                     while high - low > CHANGE {
                         let middle = low + 0.5 * (high - low);
-                        if is_dark(toward(sky, middle)) == was_dark {
+                        if self.is_in_shadow(sky, place, middle) == was_dark {
                             low = middle;
                         } else {
                             high = middle;

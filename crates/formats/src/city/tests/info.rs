@@ -72,6 +72,6 @@ fn delft() {
     let Ok(FileInfo::City(info)) = crate::inspect(path) else {
         panic!("a city");
     };
-    assert_eq!((info.buildings, info.facets), (160, 3152));
+    assert_eq!((info.buildings, info.facets), (160, 3155));
     assert_eq!(info.crs, "EPSG:7415");
 }
