@@ -27,7 +27,7 @@ pub(crate) struct Cover {
     pub(crate) before: [[f32; PLACES]; MOST],
     /// And from here to 1.
     pub(crate) after: [[f32; PLACES]; MOST],
-    /// Bit k: arc k is covered wholly for all places.
+    /// Bit k: arc k is covered wholly for all places, or there is none.
     pub(crate) full: u64,
     /// Bit k: arc k has pieces.
     pub(crate) in_pieces: u64,
@@ -36,21 +36,21 @@ pub(crate) struct Cover {
 }
 
 impl Cover {
-    pub(crate) fn new() -> Box<Self> {
-        Box::new(Self {
+    pub(crate) fn new() -> Self {
+        Self {
             before: [[0.0; PLACES]; MOST],
             after: [[1.0; PLACES]; MOST],
             full: 0,
             in_pieces: 0,
             pieces: [const { Vec::new() }; MOST],
-        })
+        }
     }
 
     /// Nothing of so many arcs is covered.
     pub(crate) fn clear(&mut self, arcs: usize) {
         self.before[..arcs].fill([0.0; PLACES]);
         self.after[..arcs].fill([1.0; PLACES]);
-        self.full = 0;
+        self.full = if arcs < MOST { u64::MAX << arcs } else { 0 };
         while self.in_pieces != 0 {
             self.pieces[self.in_pieces.trailing_zeros() as usize].clear();
             self.in_pieces &= self.in_pieces - 1;
@@ -62,7 +62,7 @@ impl Cover {
         let (before, after) = (&mut self.before[arc][place], &mut self.after[arc][place]);
         if from <= *before + JOIN {
             *before = before.max(to);
-        } else if to >= *after - JOIN {
+        } else if *after <= to + JOIN {
             *after = after.min(from);
         } else {
             self.add_piece(arc, place, from, to);
@@ -98,7 +98,7 @@ impl Cover {
                 let (before, after) = (&mut before[piece.place], &mut after[piece.place]);
                 if piece.from <= *before + JOIN {
                     *before = before.max(piece.to);
-                } else if piece.to >= *after - JOIN {
+                } else if *after <= piece.to + JOIN {
                     *after = after.min(piece.from);
                 } else {
                     return true;
@@ -140,13 +140,19 @@ impl Cover {
         }
     }
 
+    /// Shares are added up before they are multiplied: such sums are exact, so that the order in which pieces came
+    /// does not matter.
     #[inline(never)]
     fn add_pieces(&self, arc: usize, length: f64, seconds: &mut [f64; PLACES]) {
+        let mut shares = [0.0; PLACES];
         for piece in &self.pieces[arc] {
             let place = piece.place;
             if self.before[arc][place] + JOIN < self.after[arc][place] {
-                seconds[place] += length * (f64::from(piece.to) - f64::from(piece.from));
+                shares[place] += f64::from(piece.to) - f64::from(piece.from);
             }
+        }
+        for (seconds, share) in seconds.iter_mut().zip(shares) {
+            *seconds += length * share;
         }
     }
 }

@@ -12,15 +12,20 @@ use rayon::prelude::*;
 
 use crate::kernel::{Job, Room, add_seconds};
 use crate::occluder::Occluders;
-use crate::tile::{PLACES, Tile};
+use crate::tile::{PLACES, Tile, is_somewhere};
 use crate::tiles::Tiles;
 use crate::way::Way;
+use crate::ways::{TOGETHER, Ways};
+
+/// Tiles in whose sight the same is near are looked at together. Those are at most so many, in a box no longer than so many metres.
+const TILES: usize = 4;
+const NEAR: f32 = 16.0;
 
 /// Measures the shadow of polygons at places, exactly in time.
 #[derive(Debug)]
 pub struct Exact<'a> {
     occluders: &'a Occluders,
-    ways: Vec<Way>,
+    ways: Vec<Ways>,
     level: Level,
 }
 
@@ -32,7 +37,7 @@ impl<'a> Exact<'a> {
         let sheets = sheets.par_iter().filter(|sheet| !sheet.arcs().is_empty());
         Self {
             occluders,
-            ways: sheets.map(Way::new).collect(),
+            ways: Ways::together(sheets.map(Way::new).collect()),
             level: Level::detect(),
         }
     }
@@ -57,58 +62,81 @@ impl<'a> Exact<'a> {
     }
 
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
-        by_tiles(lists, |places, seconds, room| {
-            self.tile(places, seconds, room);
-        })
+        by_tiles(lists, |tiles, room| self.sums(tiles, room))
     }
 
-    /// Writes the seconds of up to sixteen places.
-    pub(crate) fn tile(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) {
-        let places: ArrayVec<[f32; 3], PLACES> = places.iter().map(|p| p.to_array()).collect();
-        if places.iter().flatten().any(|x| !x.is_finite()) {
-            // A place that is nowhere has no shadow, and its neighbours are looked at without it.
-            for (place, seconds) in places.iter().zip(seconds) {
-                *seconds = 0.0;
-                if place.iter().all(|x| x.is_finite()) {
-                    *seconds = self.sum(&Tile::new(&[*place]), room)[0];
+    /// How many seconds each place of some tiles lies in shadow.
+    pub(crate) fn sums(&self, tiles: &[Tile], room: &mut Room) -> Sums {
+        let mut sums: Sums = tiles.iter().map(|_| [0.0; PLACES]).collect();
+        self.by_way(tiles, room, |tile, _, seconds| {
+            for (sum, seconds) in sums[tile].iter_mut().zip(seconds) {
+                *sum += seconds;
+            }
+        });
+        sums
+    }
+
+    /// Shows how many seconds of each sheet, by its number, lie in shadow for each place of each tile.
+    pub(crate) fn by_way(
+        &self,
+        tiles: &[Tile],
+        room: &mut Room,
+        mut show: impl FnMut(usize, usize, &[f64; PLACES]),
+    ) {
+        for ways in &self.ways {
+            let count = ways.list().len();
+            let together = TOGETHER / count;
+            for (part, tiles) in tiles.chunks(together).enumerate() {
+                let mut seconds = [[0.0; PLACES]; TOGETHER];
+                let job = Job {
+                    occluders: self.occluders,
+                    ways,
+                    tiles,
+                };
+                add_seconds(self.level, job, room, &mut seconds);
+                for (tile, seconds) in (seconds.chunks_exact(count).take(tiles.len())).enumerate() {
+                    for (&which, seconds) in ways.which.iter().zip(seconds) {
+                        show(part * together + tile, which, seconds);
+                    }
                 }
             }
-            return;
         }
-        let sums = self.sum(&Tile::new(&places), room);
-        seconds.copy_from_slice(&sums[..places.len()]);
-    }
-
-    fn sum(&self, tile: &Tile, room: &mut Room) -> [f64; PLACES] {
-        let mut seconds = [0.0; PLACES];
-        for way in &self.ways {
-            let occluders = self.occluders;
-            let job = Job {
-                occluders,
-                way,
-                tile,
-            };
-            add_seconds(self.level, job, room, &mut seconds);
-        }
-        seconds
     }
 }
 
-/// Tiles in parallel: `tile` writes the seconds of the places that it is given.
+/// By tile the seconds of its places.
+pub(crate) type Sums = ArrayVec<[f64; PLACES], TILES>;
+
+/// Lists of up to sixteen places in parallel: `sum` gives the seconds of tiles that lie near one another.
 pub(crate) fn by_tiles(
     lists: &[&[Point3]],
-    tile: impl Fn(&[Point3], &mut [f64], &mut Room) + Sync,
+    sum: impl Fn(&[Tile], &mut Room) -> Sums + Sync,
 ) -> Vec<f64> {
-    let tiles: Vec<ArrayVec<f64, PLACES>> = lists
-        .par_iter()
-        .map_init(Room::new, |room, places| {
-            let mut seconds = ArrayVec::from([0.0; PLACES]);
-            seconds.truncate(places.len());
-            tile(places, &mut seconds, room);
-            seconds
+    let parts: Vec<Vec<f64>> = lists
+        .par_chunks(TILES)
+        .map_init(Room::new, |room, lists| {
+            let tiles: ArrayVec<Tile, TILES> = lists.iter().map(|list| Tile::new(list)).collect();
+            let sums: Sums = if Tile::length(&tiles) <= NEAR {
+                sum(&tiles, room)
+            } else {
+                let each = tiles.chunks(1);
+                each.flat_map(|tile| sum(tile, room)).collect()
+            };
+            let mut all = Vec::with_capacity(TILES * PLACES);
+            for (places, sums) in lists.iter().zip(sums) {
+                all.extend_from_slice(&sums[..places.len()]);
+                if !places.iter().all(is_somewhere) {
+                    let own = all.len() - places.len();
+                    for (place, seconds) in places.iter().zip(&mut all[own..]) {
+                        // A place that is nowhere has no shadow.
+                        *seconds = if is_somewhere(place) { *seconds } else { 0.0 };
+                    }
+                }
+            }
+            all
         })
         .collect();
-    tiles.into_iter().flatten().collect()
+    parts.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod sampled;
 mod tile;
 mod tiles;
 mod way;
+mod ways;
 
 pub use exact::Exact;
 pub use fast::{Difference, Fast};

@@ -1,5 +1,7 @@
 //! Sixteen places that lie near one another.
 
+use ombra_geometry::Point3;
+
 /// How many places a tile has.
 pub(crate) const PLACES: usize = 16;
 
@@ -11,15 +13,55 @@ pub(crate) struct Tile {
     pub(crate) at: [[f32; PLACES]; 3],
     pub(crate) least: [f32; 3],
     pub(crate) most: [f32; 3],
+    /// How many places there are.
+    pub(crate) count: usize,
 }
 
 impl Tile {
-    /// Of up to sixteen places; where there are fewer, the last one is there several times.
-    pub(crate) fn new(places: &[[f32; 3]]) -> Self {
-        let place = |k: usize| places[k.min(places.len() - 1)];
-        let at = [0, 1, 2].map(|axis| std::array::from_fn(|k| place(k)[axis]));
+    /// Of up to sixteen places; where there are fewer, or one is nowhere, another one is there several times.
+    pub(crate) fn new(places: &[Point3]) -> Self {
+        let known = places.iter().rev().find(|place| is_somewhere(place));
+        let known = known.map_or([0.0; 3], |place| place.to_array());
+        let place = |k: usize| match places.get(k) {
+            Some(place) if is_somewhere(place) => place.to_array(),
+            _ => known,
+        };
+        let mut at = [[0.0; PLACES]; 3];
+        for k in 0..PLACES {
+            let place = place(k);
+            for axis in 0..3 {
+                at[axis][k] = place[axis];
+            }
+        }
         let least = at.map(|of: [f32; PLACES]| of.into_iter().fold(f32::INFINITY, f32::min));
         let most = at.map(|of| of.into_iter().fold(f32::NEG_INFINITY, f32::max));
-        Self { at, least, most }
+        Self {
+            at,
+            least,
+            most,
+            count: places.len(),
+        }
     }
+
+    /// The box around all of some tiles.
+    pub(crate) fn around(tiles: &[Self]) -> [[f32; 3]; 2] {
+        let nothing = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+        tiles.iter().fold(nothing, |[least, most], tile| {
+            [
+                [0, 1, 2].map(|k| least[k].min(tile.least[k])),
+                [0, 1, 2].map(|k| most[k].max(tile.most[k])),
+            ]
+        })
+    }
+
+    /// The longest side of that box.
+    pub(crate) fn length(tiles: &[Self]) -> f32 {
+        let [least, most] = Self::around(tiles);
+        (0..3).map(|k| most[k] - least[k]).fold(0.0, f32::max)
+    }
+}
+
+/// Whether a place has coordinates.
+pub(crate) fn is_somewhere(place: &Point3) -> bool {
+    place.to_array().iter().all(|x| x.is_finite())
 }

@@ -14,10 +14,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 
-use crate::exact::{Exact, by_tiles};
-use crate::kernel::Room;
+use crate::exact::{Exact, Sums, by_tiles};
 use crate::occluder::Occluders;
-use crate::tile::PLACES;
+use crate::tile::{PLACES, Tile};
 use crate::tiles::Tiles;
 
 use choice::Choice;
@@ -28,7 +27,10 @@ use day::Day;
 #[derive(Debug)]
 pub struct Fast<'a> {
     every: Exact<'a>,
-    some: Vec<Exact<'a>>,
+    /// The days that are taken.
+    some: Exact<'a>,
+    /// To which of these days each of their sheets belongs.
+    day_of: Vec<usize>,
     choice: Choice,
     /// How far a place may be off, in seconds.
     tolerance: f64,
@@ -53,12 +55,20 @@ impl<'a> Fast<'a> {
         let days: Vec<Day<'_>> = days.iter().filter_map(|sheets| Day::new(sheets)).collect();
         let choice = Choice::new(occluders, &days, tiles, tolerance, is_wanted)?;
         let all: Vec<Sheet> = days.iter().flat_map(|day| day.sheets).cloned().collect();
-        let taken = choice.taken.iter();
+        let taken = choice
+            .taken
+            .iter()
+            .map(|own| days[own.day].sheets)
+            .enumerate();
+        let some = taken.flat_map(|(k, sheets)| {
+            let lasting = sheets.iter().filter(|sheet| !sheet.arcs().is_empty());
+            lasting.map(move |sheet| (sheet.clone(), k))
+        });
+        let (some, day_of): (Vec<Sheet>, Vec<usize>) = some.unzip();
         Some(Self {
             every: Exact::new(occluders, &all),
-            some: taken
-                .map(|own| Exact::new(occluders, days[own.day].sheets))
-                .collect(),
+            some: Exact::new(occluders, &some),
+            day_of,
             tolerance: tolerance * days.iter().map(|day| day.seconds).sum::<f64>(),
             choice,
             refined: AtomicUsize::new(0),
@@ -68,7 +78,7 @@ impl<'a> Fast<'a> {
     /// How many days stand for all; 0 if every day is measured everywhere.
     #[must_use]
     pub fn days(&self) -> usize {
-        self.some.len()
+        self.choice.taken.len()
     }
 
     /// How far it is off where it was compared with every day.
@@ -97,31 +107,52 @@ impl<'a> Fast<'a> {
     }
 
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
-        by_tiles(lists, |places, seconds, room| {
-            if self.some.is_empty() || !self.by_some(places, seconds, room) {
-                self.every.tile(places, seconds, room);
-                self.refined.fetch_add(places.len(), Ordering::Relaxed);
+        by_tiles(lists, |tiles, room| {
+            let mut sums = Sums::new();
+            if self.choice.taken.is_empty() {
+                sums = self.every.sums(tiles, room);
+                self.count(tiles);
+                return sums;
             }
+            let taken = self.choice.taken.len();
+            let mut by_day = vec![[0.0; PLACES]; taken * tiles.len()];
+            self.some.by_way(tiles, room, |tile, sheet, seconds| {
+                let sums = &mut by_day[tile * taken + self.day_of[sheet]];
+                for (sum, seconds) in sums.iter_mut().zip(seconds) {
+                    *sum += seconds;
+                }
+            });
+            for (tile, by_day) in tiles.chunks(1).zip(by_day.chunks_exact(taken)) {
+                match self.by_some(by_day) {
+                    Some(own) => sums.push(own),
+                    None => {
+                        sums.extend(self.every.sums(tile, room));
+                        self.count(tile);
+                    }
+                }
+            }
+            sums
         })
     }
 
-    /// Whether the days that are taken tell.
-    fn by_some(&self, places: &[Point3], seconds: &mut [f64], room: &mut Room) -> bool {
-        seconds.fill(0.0);
+    fn count(&self, tiles: &[Tile]) {
+        let places = tiles.iter().map(|tile| tile.count).sum();
+        self.refined.fetch_add(places, Ordering::Relaxed);
+    }
+
+    /// What the days that are taken tell, if they do.
+    fn by_some(&self, by_day: &[[f64; PLACES]]) -> Option<[f64; PLACES]> {
+        let mut seconds = [0.0; PLACES];
         let mut squares = [0.0; PLACES];
-        let (mut last, mut own) = ([0.0; PLACES], [0.0; PLACES]);
-        for (k, (exact, taken)) in self.some.iter().zip(&self.choice.taken).enumerate() {
-            exact.tile(places, &mut own[..places.len()], room);
-            for place in 0..places.len() {
+        let mut last = by_day[0];
+        for (own, taken) in by_day.iter().zip(&self.choice.taken) {
+            for place in 0..PLACES {
                 seconds[place] += taken.times * own[place];
-                if k > 0 {
-                    squares[place] += taken.unknown(last[place], own[place]).powi(2);
-                }
+                squares[place] += taken.unknown(last[place], own[place]).powi(2);
             }
-            last = own;
+            last = *own;
         }
-        squares
-            .iter()
-            .all(|square| choice::is_known(square.sqrt(), self.tolerance))
+        let is_known = |square: &f64| choice::is_known(square.sqrt(), self.tolerance);
+        squares.iter().all(is_known).then_some(seconds)
     }
 }

@@ -7,19 +7,19 @@ use super::walk::{Waiting, walk};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
-use crate::way::Way;
+use crate::ways::{TOGETHER, Ways};
 
 /// What a search needs besides, kept between searches.
 #[derive(Debug)]
 pub(crate) struct Room {
-    cover: Box<Cover>,
+    covers: Vec<Cover>,
     waiting: Vec<Waiting>,
 }
 
 impl Room {
     pub(crate) fn new() -> Self {
         Self {
-            cover: Cover::new(),
+            covers: (0..TOGETHER).map(|_| Cover::new()).collect(),
             waiting: Vec::new(),
         }
     }
@@ -33,7 +33,7 @@ mod x86 {
     /// # Safety
     /// - The processor has AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn avx2(job: Job<'_>, room: &mut Room, seconds: &mut [f64; PLACES]) {
+    pub(super) unsafe fn avx2(job: Job<'_>, room: &mut Room, seconds: &mut Seconds) {
         // SAFETY: the caller's promise.
         unsafe { add::<Avx2, Pair<Avx2>>(job, room, seconds) }
     }
@@ -41,27 +41,25 @@ mod x86 {
     /// # Safety
     /// - The processor has AVX2 and AVX-512 F.
     #[target_feature(enable = "avx2,avx512f")]
-    pub(super) unsafe fn avx512(job: Job<'_>, room: &mut Room, seconds: &mut [f64; PLACES]) {
+    pub(super) unsafe fn avx512(job: Job<'_>, room: &mut Room, seconds: &mut Seconds) {
         // SAFETY: the caller's promise.
         unsafe { add::<Avx2, Avx512>(job, room, seconds) }
     }
 }
 
-/// Before what, on which way, seen from where.
+/// Before what, on which ways, seen from where: of ways and tiles there are at most [`TOGETHER`], multiplied.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
     pub(crate) occluders: &'a Occluders,
-    pub(crate) way: &'a Way,
-    pub(crate) tile: &'a Tile,
+    pub(crate) ways: &'a Ways,
+    pub(crate) tiles: &'a [Tile],
 }
 
-/// Adds to the seconds of each place how long the way is covered.
-pub(crate) fn add_seconds(
-    level: Level,
-    job: Job<'_>,
-    room: &mut Room,
-    seconds: &mut [f64; PLACES],
-) {
+/// By way of each tile, one tile after another, how many seconds of it are covered for each place.
+pub(crate) type Seconds = [[f64; PLACES]; TOGETHER];
+
+/// Adds to the seconds how long each way is covered.
+pub(crate) fn add_seconds(level: Level, job: Job<'_>, room: &mut Room, seconds: &mut Seconds) {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a level is one that this machine has.
@@ -77,9 +75,14 @@ pub(crate) fn add_seconds(
 /// # Safety
 /// - The processor has the instructions of both.
 #[inline(always)]
-unsafe fn add<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut Room, seconds: &mut [f64; PLACES]) {
-    let Room { cover, waiting } = room;
+unsafe fn add<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut Room, seconds: &mut Seconds) {
+    let Room { covers, waiting } = room;
+    let ways = job.ways.list();
+    let covers = &mut covers[..ways.len() * job.tiles.len()];
     // SAFETY: the caller's promise.
-    unsafe { walk::<N, P>(job.occluders, job.way, job.tile, cover, waiting) };
-    cover.add_seconds(&job.way.seconds, seconds);
+    unsafe { walk::<N, P>(job.occluders, job.ways, job.tiles, covers, waiting) };
+    let ways = ways.iter().cycle();
+    for ((cover, way), seconds) in covers.iter().zip(ways).zip(seconds) {
+        cover.add_seconds(&way.seconds, seconds);
+    }
 }

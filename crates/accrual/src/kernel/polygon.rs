@@ -2,6 +2,7 @@
 
 use super::lanes::{Lanes, Mask as _};
 use super::reference::{Side, covered};
+use super::walk::trimmed;
 use crate::cover::{Cover, JOIN};
 use crate::occluder::Occluder;
 use crate::tile::{PLACES, Tile};
@@ -42,22 +43,31 @@ unsafe fn plane<P: Lanes>([x, y, z]: [f32; 3], [dx, dy, dz]: Vectors<P>) -> Vect
     }
 }
 
-/// Covers what the polygon covers of some arcs, for all places of a tile.
+/// Covers what the polygon covers of some arcs of each way, for all places of a tile: a cover for each way. The box around
+/// the polygon is no steeper above any place than `steep`, the squared tangent of its altitude.
 ///
 /// Of each plane through a place and an edge only the sign matters on which side the sun is. Along an
 /// arc that is a polynomial of degree two in time, with at most one root where the signs at the ends
 /// differ. Where it might have two, within the sag of the arc, the plain way takes over.
 ///
 /// # Safety
-/// - The processor has the instructions of `P`, which are sixteen; the way has the arcs.
+/// - The processor has the instructions of `P`, which are sixteen; a cover's arcs that its way does not have are full.
 #[inline(always)]
 pub(super) unsafe fn polygon<P: Lanes>(
     occluder: &Occluder,
-    way: &Way,
-    [first, last]: [usize; 2],
+    ways: &[Way],
+    arcs: [usize; 2],
+    steep: f32,
     tile: &Tile,
-    cover: &mut Cover,
+    covers: &mut [Cover],
 ) {
+    let is_needed = (ways.iter().zip(&*covers)).any(|(way, cover)| {
+        let own = trimmed(arcs, cover.full);
+        own[0] <= own[1] && way.lowest(own) < steep
+    });
+    if !is_needed {
+        return;
+    }
     // SAFETY: the caller's promise.
     unsafe {
         let zero = P::splat(0.0);
@@ -83,7 +93,7 @@ pub(super) unsafe fn polygon<P: Lanes>(
             return;
         }
         let mut planes = [[zero; 3]; 4];
-        let mut near = [zero; 4];
+        let mut sizes = [zero; 4];
         for j in 0..4 {
             planes[j] = plane(occluder.edge[j], away[j]);
             if occluder.is_two_sided {
@@ -91,28 +101,37 @@ pub(super) unsafe fn polygon<P: Lanes>(
                     *along = zero.minus(*along).or_where_not(behind, *along);
                 }
             }
-            // Not less than how far the sun may depart from the chord, as seen from this plane.
             let [x, y, z] = planes[j];
-            near[j] = (x.size().plus(y.size()).plus(z.size())).times(P::splat(way.sag));
+            sizes[j] = x.size().plus(y.size()).plus(z.size());
         }
-        let mut from = [zero; 4];
-        for j in 0..4 {
-            from[j] = dot(planes[j], *way.knots.get_unchecked(first));
-        }
-        for arc in first..=last {
-            let knot = *way.knots.get_unchecked(arc + 1);
-            let mut to = [zero; 4];
-            let mut open = seen;
+        for (way, cover) in ways.iter().zip(covers) {
+            let [first, last] = trimmed(arcs, cover.full);
+            if first > last || steep <= way.lowest([first, last]) {
+                continue;
+            }
+            // Not less than how far the sun may depart from the chord, as seen from each plane.
+            let sag = P::splat(way.sag);
+            let mut near = [zero; 4];
+            let mut from = [zero; 4];
             for j in 0..4 {
-                to[j] = dot(planes[j], knot);
-                // Outside all along.
-                let highest = from[j].larger(to[j]).plus(near[j]);
-                open = open.and_not(highest.below(zero));
+                near[j] = sizes[j].times(sag);
+                from[j] = dot(planes[j], *way.knots.get_unchecked(first));
             }
-            if open.bits() != 0 {
-                one_arc(&planes, &near, from, to, open, way, arc, cover);
+            for arc in first..=last {
+                let knot = *way.knots.get_unchecked(arc + 1);
+                let mut to = [zero; 4];
+                let mut open = seen;
+                for j in 0..4 {
+                    to[j] = dot(planes[j], knot);
+                    // Outside all along.
+                    let highest = from[j].larger(to[j]).plus(near[j]);
+                    open = open.and_not(highest.below(zero));
+                }
+                if open.bits() != 0 {
+                    one_arc(&planes, &near, from, to, open, way, arc, cover);
+                }
+                from = to;
             }
-            from = to;
         }
     }
 }
@@ -139,11 +158,14 @@ unsafe fn one_arc<P: Lanes>(
         let (mut begin, mut end) = (zero, one);
         let mut open = open;
         let mut grazing = open.and_not(open);
-        let mut bulges = [zero; 4];
+        let along = *way.bulges.get_unchecked(arc);
         for j in 0..4 {
             let (a, b) = (from[j], to[j]);
-            let bulge = dot(planes[j], *way.bulges.get_unchecked(arc));
-            bulges[j] = bulge;
+            // Inside all along: so it is with most edges of large polygons.
+            if open.and(a.smaller(b).below(near[j])).bits() == 0 {
+                continue;
+            }
+            let bulge = dot(planes[j], along);
             let (enters, leaves) = (a.below(zero), b.below(zero));
             let both = enters.and(leaves);
             let crosses = enters.or(leaves).and_not(both);
@@ -173,6 +195,7 @@ unsafe fn one_arc<P: Lanes>(
         }
         grazing = grazing.and(open);
         if grazing.bits() != 0 {
+            let bulges = [0, 1, 2, 3].map(|j| dot(planes[j], along));
             graze(from, to, bulges, grazing.bits(), arc, cover);
             open = open.and_not(grazing);
         }
@@ -189,7 +212,7 @@ unsafe fn one_arc<P: Lanes>(
         let (before, after) = (P::load(rows_before), P::load(rows_after));
         let first = open.and_not(before.plus(join).below(begin));
         let rest = open.and_not(first);
-        let second = rest.and_not(end.below(after.minus(join)));
+        let second = rest.and_not(end.plus(join).below(after));
         let before = end.larger(before).or_where_not(first, before);
         let after = begin.smaller(after).or_where_not(second, after);
         before.store(rows_before);
@@ -211,7 +234,7 @@ unsafe fn one_arc<P: Lanes>(
             before = P::load(cover.before[arc].as_ptr());
             after = P::load(cover.after[arc].as_ptr());
         }
-        let gap = before.below(after.minus(join));
+        let gap = before.plus(join).below(after);
         cover.full |= u64::from(gap.bits() == 0) << arc;
     }
 }

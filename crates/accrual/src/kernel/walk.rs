@@ -12,7 +12,8 @@ use super::polygon::polygon;
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::Tile;
-use crate::way::{TURN_PAD, Way};
+use crate::way::MOST;
+use crate::ways::{TURN_PAD, Ways};
 
 /// What waits to be looked at.
 #[derive(Clone, Copy, Debug)]
@@ -20,35 +21,48 @@ pub(crate) struct Waiting {
     /// As in the node above.
     child: BoxChild,
     arcs: [u8; 2],
+    /// The squared tangent of its altitude.
+    steep: f32,
 }
 
-/// Covers what of the way is covered for the tile. `N` has eight lanes, `P` sixteen.
+/// Covers what of the ways is covered for the tiles: a cover for each way of each tile. `N` has eight lanes, `P`
+/// sixteen.
 ///
 /// # Safety
 /// - The processor has the instructions of both.
 #[inline(always)]
 pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
     occluders: &Occluders,
-    way: &Way,
-    tile: &Tile,
-    cover: &mut Cover,
+    ways: &Ways,
+    tiles: &[Tile],
+    covers: &mut [Cover],
     waiting: &mut Vec<Waiting>,
 ) {
-    cover.clear(way.len());
+    let count = ways.list().len();
+    for covers in covers.chunks_exact_mut(count) {
+        for (cover, way) in covers.iter_mut().zip(ways.list()) {
+            cover.clear(way.len());
+        }
+    }
     waiting.clear();
     let nodes = occluders.tree.nodes();
     // SAFETY: the caller's promise.
     unsafe {
-        let around = Around::<N>::new(tile, occluders.reach);
+        let around = Around::<N>::new(tiles, occluders.reach);
         let mut node = occluders.tree.root();
-        let mut arcs = [0, way.len() - 1];
+        let mut arcs = [0, ways.len() - 1];
+        let mut full = if ways.len() < MOST {
+            u64::MAX << ways.len()
+        } else {
+            0
+        };
         'search: loop {
-            around.push(occluders, &nodes[node], arcs, way, cover.full, waiting);
+            around.push(occluders, &nodes[node], arcs, ways, full, waiting);
             loop {
                 let Some(next) = waiting.pop() else {
                     break 'search;
                 };
-                arcs = trimmed(next.arcs.map(usize::from), cover.full);
+                arcs = trimmed(next.arcs.map(usize::from), full);
                 if arcs[0] > arcs[1] {
                     continue;
                 }
@@ -58,7 +72,14 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
                         continue 'search;
                     }
                     Some(which) => {
-                        polygon::<P>(&occluders.list[which], way, arcs, tile, cover);
+                        let occluder = &occluders.list[which];
+                        full = u64::MAX;
+                        for (tile, covers) in tiles.iter().zip(covers.chunks_exact_mut(count)) {
+                            polygon::<P>(occluder, ways.list(), arcs, next.steep, tile, covers);
+                            for cover in covers {
+                                full &= cover.full;
+                            }
+                        }
                     }
                 }
             }
@@ -68,7 +89,7 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
 
 /// Without what is covered for all places at either end.
 #[inline(always)]
-fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
+pub(super) fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
     let left = !full >> first << first;
     let left = left & (u64::MAX >> (63 - last));
     if left == 0 {
@@ -80,7 +101,7 @@ fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
     ]
 }
 
-/// A tile as boxes are looked at from it.
+/// Tiles as boxes are looked at from them.
 struct Around<N> {
     least: [N; 3],
     most: [N; 3],
@@ -90,9 +111,8 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn new(tile: &Tile, reach: f32) -> Self {
-        let [x, y, z] = tile.least;
-        let [u, v, w] = tile.most;
+    unsafe fn new(tiles: &[Tile], reach: f32) -> Self {
+        let [[x, y, z], [u, v, w]] = Tile::around(tiles);
         let size = x.abs().max(y.abs()).max(z.abs());
         let size = size.max(u.abs()).max(v.abs()).max(w.abs());
         // Against rounding of differences.
@@ -116,12 +136,12 @@ impl<N: Lanes> Around<N> {
         occluders: &Occluders,
         node: &BoxNode,
         arcs: [usize; 2],
-        way: &Way,
+        ways: &Ways,
         full: u64,
         waiting: &mut Vec<Waiting>,
     ) {
         let (mut from, mut to) = ([0.0_f32; 8], [0.0_f32; 8]);
-        let (mut height, mut distance) = ([0.0_f32; 8], [0.0_f32; 8]);
+        let (mut steep, mut distance) = ([0.0_f32; 8], [0.0_f32; 8]);
         // SAFETY: the caller's promise; a node has eight boxes.
         let (left, within) = unsafe {
             let zero = N::splat(0.0);
@@ -154,18 +174,18 @@ impl<N: Lanes> Around<N> {
                 (ly.or_where_not(east, hy)).or_where_not(south, ly.or_where_not(east, hy)),
             );
             let (a, b) = (turns(ax, ay), turns(bx, by));
-            let (a, b) = if way.sign < 0.0 { (b, a) } else { (a, b) };
-            let a = relative(a, way, -TURN_PAD);
-            let b = relative(b, way, TURN_PAD);
+            let (a, b) = if ways.sign < 0.0 { (b, a) } else { (a, b) };
+            let a = relative(a, ways, -TURN_PAD);
+            let b = relative(b, ways, TURN_PAD);
             // Most of what is in vain is seen here, for all eight at once.
-            let [begin, end] = way.turns_of(arcs).map(|turn| N::splat(turn));
+            let [begin, end] = ways.turns_of(arcs).map(|turn| N::splat(turn));
             let beside = b.below(begin).or(end.below(a)).and_not(b.below(a));
-            let lowest = squared.times(N::splat(way.lowest(arcs)));
-            let higher = lowest.below(up.times(up)).bits();
+            let tangent = up.times(up).over(squared);
+            let higher = N::splat(ways.lowest(arcs)).below(tangent).bits();
             let left = above & higher & (within | !beside.bits());
             a.store(from.as_mut_ptr());
             b.store(to.as_mut_ptr());
-            up.store(height.as_mut_ptr());
+            tangent.store(steep.as_mut_ptr());
             squared.store(distance.as_mut_ptr());
             (left, within)
         };
@@ -177,14 +197,14 @@ impl<N: Lanes> Around<N> {
             left &= left - 1;
             let mut own = arcs;
             if within >> k & 1 == 0 {
-                let [first, last] = way.between(from[k], to[k]);
+                let [first, last] = ways.between(from[k], to[k]);
                 own = [arcs[0].max(first), arcs[1].min(last)];
                 if own[0] > own[1] {
                     continue;
                 }
             }
             own = trimmed(own, full);
-            if own[0] > own[1] || height[k] * height[k] <= distance[k] * way.lowest(own) {
+            if own[0] > own[1] || steep[k] <= ways.lowest(own) {
                 continue;
             }
             occluders.ask_for(node.child[k]);
@@ -194,6 +214,7 @@ impl<N: Lanes> Around<N> {
             waiting.push(Waiting {
                 child: node.child[k],
                 arcs: own.map(|arc| arc as u8),
+                steep: steep[k],
             });
             while place > 0 && keys[place - 1] < key {
                 keys[place] = keys[place - 1];
@@ -227,11 +248,11 @@ unsafe fn turns<N: Lanes>(east: N, north: N) -> N {
 /// # Safety
 /// - The processor has the instructions of `N`.
 #[inline(always)]
-unsafe fn relative<N: Lanes>(turns: N, way: &Way, later: f32) -> N {
+unsafe fn relative<N: Lanes>(turns: N, ways: &Ways, later: f32) -> N {
     // SAFETY: the caller's promise.
     unsafe {
         let (zero, whole) = (N::splat(0.0), N::splat(4.0));
-        let turns = turns.minus(N::splat(way.start)).times(N::splat(way.sign));
+        let turns = turns.minus(N::splat(ways.start)).times(N::splat(ways.sign));
         let turns = turns.plus(N::splat(later));
         let turns = turns.plus(whole).or_where_not(turns.below(zero), turns);
         turns.or_where_not(turns.below(whole), turns.minus(whole))

@@ -123,3 +123,34 @@ fn the_number_of_threads_changes_no_bit() {
     };
     assert_eq!(with(1), with(4));
 }
+
+#[test]
+fn what_is_looked_at_together_changes_no_bit() {
+    let (facets, _) = city(7, 60);
+    let occluders = Occluders::new(&facets);
+    // Tiles of neighbours, and days that come one after another: both share their walks.
+    let places: Vec<Point3> = (0..=255_u8)
+        .map(|k| [k & 3 | k >> 2 & 12, k >> 2 & 3 | k >> 4 & 12])
+        .map(|[x, y]| Point3::new(f32::from(x), f32::from(y), 0.0))
+        .collect();
+    for latitude in [40.0, -20.0, 70.0] {
+        let sky = sky(latitude);
+        let first = jiff::civil::date(2026, 2, 20);
+        let days: Vec<_> = first.series(jiff::Span::new().days(1)).take(20).collect();
+        let each: Vec<Vec<f64>> = (spans(&sky, &days).iter())
+            .flat_map(|span| sheets(&sky, &[*span]))
+            .map(|sheet| {
+                let exact = Exact::new(&occluders, &[sheet]);
+                let together = exact.seconds(&places);
+                let alone = places.chunks(16).flat_map(|tile| exact.seconds(tile));
+                assert!(together.iter().copied().eq(alone));
+                together
+            })
+            .collect();
+        let all = Exact::new(&occluders, &sheets(&sky, &spans(&sky, &days))).seconds(&places);
+        let sums = (0..places.len()).map(|place| each.iter().map(|day| day[place]).sum::<f64>());
+        let sums: Vec<f64> = sums.collect();
+        assert!(sums.iter().any(|&sum| sum > 0.0));
+        assert_same(&all, &sums, 1e-9);
+    }
+}
