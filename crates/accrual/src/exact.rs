@@ -18,7 +18,7 @@ use crate::way::Way;
 use crate::ways::{TOGETHER, Ways};
 
 /// Tiles in whose sight the same is near are looked at together. Those are at most so many, in a box no longer than so many metres.
-const TILES: usize = 4;
+pub(crate) const TILES: usize = 4;
 const NEAR: f32 = 16.0;
 
 /// Measures the shadow of polygons at places, exactly in time.

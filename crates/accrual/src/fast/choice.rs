@@ -39,11 +39,14 @@ pub struct Difference {
     pub mean: f64,
 }
 
+/// How many times as many days are taken where the first ones do not tell.
+const MORE: usize = 3;
+
 /// Days that stand for others, and how well.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Choice {
-    /// Empty if every day is needed.
-    pub(super) taken: Vec<Taken>,
+    /// What is tried one after another, until it tells: some days, then more. Empty if every day is needed.
+    pub(super) steps: Vec<Vec<Taken>>,
     pub(super) error: Difference,
     /// How many days are measured for a place in the mean.
     cost: f64,
@@ -75,7 +78,12 @@ impl Choice {
                 if which.len() as f64 >= best.cost {
                     continue;
                 }
-                let choice = compared.with(Taken::some(days, &which), tolerance);
+                let more = evenly(&turning, MORE * count, shift);
+                let mut steps = vec![Taken::some(days, &which)];
+                if 2 * more.len() <= days.len() {
+                    steps.push(Taken::some(days, &more));
+                }
+                let choice = compared.with(steps, tolerance);
                 if choice.error.most <= MARGIN * tolerance && choice.cost < best.cost {
                     best = choice;
                 }
@@ -130,17 +138,20 @@ impl Compared {
     }
 
     /// How it is with these days.
-    fn with(&self, taken: Vec<Taken>, tolerance: f64) -> Choice {
-        let (mut most, mut sum, mut refined) = (0.0_f64, 0.0, 0);
+    fn with(&self, steps: Vec<Vec<Taken>>, tolerance: f64) -> Choice {
+        let (mut most, mut sum, mut measured) = (0.0_f64, 0.0, 0);
         for tile in 0..self.tiles.len() {
             let places = self.tiles.range(tile..tile + 1);
-            let is_known = places
-                .clone()
-                .all(|place| is_known(self.question(&taken, place), tolerance * self.up));
-            if !is_known {
-                refined += places.len();
+            let tells = |taken: &&Vec<Taken>| {
+                measured += taken.len() * places.len();
+                places
+                    .clone()
+                    .all(|place| is_known(self.question(taken, place), tolerance * self.up))
+            };
+            let Some(taken) = steps.iter().find(tells) else {
+                measured += self.by_day.len() * places.len();
                 continue;
-            }
+            };
             for place in places {
                 let seconds = taken
                     .iter()
@@ -152,8 +163,8 @@ impl Compared {
         }
         let places = self.all.len();
         Choice {
-            cost: taken.len() as f64 + (self.by_day.len() * refined) as f64 / places as f64,
-            taken,
+            cost: measured as f64 / places as f64,
+            steps,
             error: Difference {
                 places,
                 most,

@@ -3,18 +3,21 @@
 //! From one day to the next the sun's way hardly changes, so neither does the shadow. How many days it
 //! takes depends on the city, the period and the hours, and no formula tells: so at some places, spread
 //! over all, every day is measured, and those days are taken that come close enough to that at each of
-//! these. Where a place's shadow changes much from one of these days to the next, every day is measured there,
-//! too: what happens in between is not known.
+//! these. Where a place's shadow changes much from one of these days to the next, more days are measured, and every day
+//! if need be: what happens in between is not known.
 
 mod choice;
 mod day;
+mod step;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use arrayvec::ArrayVec;
 use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 
-use crate::exact::{Exact, Sums, by_tiles};
+use crate::exact::{Exact, Sums, TILES, by_tiles};
+use crate::kernel::Room;
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
 use crate::tiles::Tiles;
@@ -22,19 +25,18 @@ use crate::tiles::Tiles;
 use choice::Choice;
 pub use choice::Difference;
 use day::Day;
+use step::Step;
 
 /// Measures the shadow of a long period by some of its days.
 #[derive(Debug)]
 pub struct Fast<'a> {
     every: Exact<'a>,
-    /// The days that are taken.
-    some: Exact<'a>,
-    /// To which of these days each of their sheets belongs.
-    day_of: Vec<usize>,
-    choice: Choice,
+    /// Some days, then more.
+    steps: Vec<Step<'a>>,
+    error: Difference,
     /// How far a place may be off, in seconds.
     tolerance: f64,
-    /// How many places were measured on every day.
+    /// How many places were measured on more days than the first step has.
     refined: AtomicUsize,
 }
 
@@ -55,22 +57,14 @@ impl<'a> Fast<'a> {
         let days: Vec<Day<'_>> = days.iter().filter_map(|sheets| Day::new(sheets)).collect();
         let choice = Choice::new(occluders, &days, tiles, tolerance, is_wanted)?;
         let all: Vec<Sheet> = days.iter().flat_map(|day| day.sheets).cloned().collect();
-        let taken = choice
-            .taken
-            .iter()
-            .map(|own| days[own.day].sheets)
-            .enumerate();
-        let some = taken.flat_map(|(k, sheets)| {
-            let lasting = sheets.iter().filter(|sheet| !sheet.arcs().is_empty());
-            lasting.map(move |sheet| (sheet.clone(), k))
-        });
-        let (some, day_of): (Vec<Sheet>, Vec<usize>) = some.unzip();
+        let steps = choice.steps.into_iter();
         Some(Self {
             every: Exact::new(occluders, &all),
-            some: Exact::new(occluders, &some),
-            day_of,
+            steps: steps
+                .map(|taken| Step::new(occluders, &days, taken))
+                .collect(),
+            error: choice.error,
             tolerance: tolerance * days.iter().map(|day| day.seconds).sum::<f64>(),
-            choice,
             refined: AtomicUsize::new(0),
         })
     }
@@ -78,16 +72,16 @@ impl<'a> Fast<'a> {
     /// How many days stand for all; 0 if every day is measured everywhere.
     #[must_use]
     pub fn days(&self) -> usize {
-        self.choice.taken.len()
+        self.steps.first().map_or(0, Step::len)
     }
 
     /// How far it is off where it was compared with every day.
     #[must_use]
     pub fn error(&self) -> Difference {
-        self.choice.error
+        self.error
     }
 
-    /// At how many places so far every day was measured.
+    /// At how many places so far more days were measured, or every day.
     #[must_use]
     pub fn refined(&self) -> usize {
         self.refined.load(Ordering::Relaxed)
@@ -108,51 +102,39 @@ impl<'a> Fast<'a> {
 
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
         by_tiles(lists, |tiles, room| {
-            let mut sums = Sums::new();
-            if self.choice.taken.is_empty() {
-                sums = self.every.sums(tiles, room);
+            let Some(first) = self.steps.first() else {
                 self.count(tiles);
-                return sums;
-            }
-            let taken = self.choice.taken.len();
-            let mut by_day = vec![[0.0; PLACES]; taken * tiles.len()];
-            self.some.by_way(tiles, room, |tile, sheet, seconds| {
-                let sums = &mut by_day[tile * taken + self.day_of[sheet]];
-                for (sum, seconds) in sums.iter_mut().zip(seconds) {
-                    *sum += seconds;
-                }
+                return self.every.sums(tiles, room);
+            };
+            let mut sums: Sums = tiles.iter().map(|_| [0.0; PLACES]).collect();
+            let mut unknown: ArrayVec<usize, TILES> = ArrayVec::new();
+            first.each(tiles, self.tolerance, room, |tile, own| match own {
+                Some(own) => sums[tile] = own,
+                None => unknown.push(tile),
             });
-            for (tile, by_day) in tiles.chunks(1).zip(by_day.chunks_exact(taken)) {
-                match self.by_some(by_day) {
-                    Some(own) => sums.push(own),
-                    None => {
-                        sums.extend(self.every.sums(tile, room));
-                        self.count(tile);
-                    }
-                }
+            for tile in unknown {
+                let own = std::slice::from_ref(&tiles[tile]);
+                self.count(own);
+                sums[tile] = self.by_more(own, room);
             }
             sums
         })
     }
 
+    /// The seconds of one tile of which the first step does not tell.
+    fn by_more(&self, tile: &[Tile], room: &mut Room) -> [f64; PLACES] {
+        for step in &self.steps[1..] {
+            let mut found = None;
+            step.each(tile, self.tolerance, room, |_, own| found = own);
+            if let Some(seconds) = found {
+                return seconds;
+            }
+        }
+        self.every.sums(tile, room)[0]
+    }
+
     fn count(&self, tiles: &[Tile]) {
         let places = tiles.iter().map(|tile| tile.count).sum();
         self.refined.fetch_add(places, Ordering::Relaxed);
-    }
-
-    /// What the days that are taken tell, if they do.
-    fn by_some(&self, by_day: &[[f64; PLACES]]) -> Option<[f64; PLACES]> {
-        let mut seconds = [0.0; PLACES];
-        let mut squares = [0.0; PLACES];
-        let mut last = by_day[0];
-        for (own, taken) in by_day.iter().zip(&self.choice.taken) {
-            for place in 0..PLACES {
-                seconds[place] += taken.times * own[place];
-                squares[place] += taken.unknown(last[place], own[place]).powi(2);
-            }
-            last = *own;
-        }
-        let is_known = |square: &f64| choice::is_known(square.sqrt(), self.tolerance);
-        squares.iter().all(is_known).then_some(seconds)
     }
 }
