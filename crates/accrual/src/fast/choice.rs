@@ -10,7 +10,10 @@ use super::day::{Day, Taken, evenly, turning};
 
 /// What of the tolerance may be used up at the places that are compared: others are not looked at, and a few
 /// of them are farther off.
-const MARGIN: f64 = 0.4;
+const MARGIN: f64 = 1.0 / 3.0;
+
+/// At how many of the places the first days may leave it open: where they do so at many, they are too few for the others.
+const OPEN: f64 = 0.2;
 
 /// How many tolerances may be in question from day to day where not every day is measured: jumps fall this
 /// way and that, so what is in question is more than what is wrong.
@@ -50,6 +53,8 @@ pub(super) struct Choice {
     pub(super) error: Difference,
     /// How many days are measured for a place in the mean.
     cost: f64,
+    /// At which share of the places the first days leave it open.
+    open: f64,
 }
 
 impl Choice {
@@ -84,7 +89,8 @@ impl Choice {
                     steps.push(Taken::some(days, &more));
                 }
                 let choice = compared.with(steps, tolerance);
-                if choice.error.most <= MARGIN * tolerance && choice.cost < best.cost {
+                let is_close = choice.error.most <= MARGIN * tolerance && choice.open <= OPEN;
+                if is_close && choice.cost < best.cost {
                     best = choice;
                 }
             }
@@ -139,16 +145,20 @@ impl Compared {
 
     /// How it is with these days.
     fn with(&self, steps: Vec<Vec<Taken>>, tolerance: f64) -> Choice {
-        let (mut most, mut sum, mut measured) = (0.0_f64, 0.0, 0);
+        let (mut most, mut sum, mut measured, mut open) = (0.0_f64, 0.0, 0, 0);
         for tile in 0..self.tiles.len() {
             let places = self.tiles.range(tile..tile + 1);
-            let tells = |taken: &&Vec<Taken>| {
+            let tells = |taken: &Vec<Taken>| {
                 measured += taken.len() * places.len();
                 places
                     .clone()
                     .all(|place| is_known(self.question(taken, place), tolerance * self.up))
             };
-            let Some(taken) = steps.iter().find(tells) else {
+            let found = steps.iter().position(tells);
+            if found != Some(0) {
+                open += places.len();
+            }
+            let Some(taken) = found.map(|step| &steps[step]) else {
                 measured += self.by_day.len() * places.len();
                 continue;
             };
@@ -164,6 +174,7 @@ impl Compared {
         let places = self.all.len();
         Choice {
             cost: measured as f64 / places as f64,
+            open: open as f64 / places as f64,
             steps,
             error: Difference {
                 places,

@@ -71,7 +71,7 @@ fn every_place_is_within_the_tolerance_over_a_year_a_season_and_a_month() {
             fast.days()
         );
         assert!(
-            fast.refined() * 5 < found.len(),
+            fast.refined() * 3 < found.len(),
             "{} of {}",
             fast.refined(),
             found.len()
