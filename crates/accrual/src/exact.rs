@@ -10,7 +10,7 @@ use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
-use crate::kernel::{Job, Room, add_seconds};
+use crate::kernel::{Job, Room, add_seconds, may_cover};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile, is_somewhere};
 use crate::tiles::Tiles;
@@ -63,6 +63,12 @@ impl<'a> Exact<'a> {
 
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
         by_tiles(lists, |tiles, room| self.sums(tiles, room))
+    }
+
+    /// Whether any polygon may come before the sun at any time, seen from anywhere in a box. Where none may, no
+    /// place in it has a second in shadow.
+    pub(crate) fn may_shade(&self, around: [[f32; 3]; 2], room: &mut Room) -> bool {
+        (self.ways.iter()).any(|ways| may_cover(self.level, self.occluders, ways, around, room))
     }
 
     /// How many seconds each place of some tiles lies in shadow.

@@ -4,6 +4,7 @@
 //! from places, over [sheets](ombra_sun::Sheet) of its way. [`Fast`] measures a long period by
 //! some of its days.
 
+mod again;
 mod cover;
 mod exact;
 mod fast;
@@ -17,6 +18,7 @@ mod tiles;
 mod way;
 mod ways;
 
+pub use again::Again;
 pub use exact::Exact;
 pub use fast::{Difference, Fast};
 pub use ground::Ground;

@@ -1,6 +1,8 @@
 //! Places in the order in which they are looked at: tiles of neighbours.
 
-use ombra_city::{City, Grid, Inside};
+use std::collections::BTreeSet;
+
+use ombra_city::{Change, City, Grid, Inside};
 use ombra_geometry::Point3;
 use rayon::prelude::*;
 
@@ -29,12 +31,44 @@ impl Tiles {
     /// asked with local metres east and north.
     #[must_use]
     pub fn on_ground(city: &City, grid: &Grid, kept: impl Fn([f64; 2]) -> bool + Sync) -> Self {
-        let (ground, inside) = (Ground::new(city), Inside::new(city));
         let across = grid.width.div_ceil(SIDE * SQUARE);
         let down = grid.height.div_ceil(SIDE * SQUARE);
-        let squares: Vec<(u32, u32)> = (0..down)
-            .flat_map(|row| (0..across).map(move |column| (column, row)))
-            .collect();
+        let squares = (0..down).flat_map(|row| (0..across).map(move |column| (column, row)));
+        Self::in_squares(city, grid, squares.collect(), kept)
+    }
+
+    /// The same of a city after a change, where that may put a place into a building or out of one.
+    #[must_use]
+    pub fn on_changed_ground(
+        city: &City,
+        grid: &Grid,
+        change: &Change,
+        kept: impl Fn([f64; 2]) -> bool + Sync,
+    ) -> Self {
+        let side = grid.cell * f64::from(SIDE * SQUARE);
+        let [west, north] = grid.north_west();
+        let square = |metres: f32, from: f64, cells: u32| {
+            let last = f64::from(cells.div_ceil(SIDE * SQUARE) - 1);
+            ((f64::from(metres) - from) / side).floor().clamp(0.0, last) as u32
+        };
+        let mut squares = BTreeSet::new();
+        for [low, high] in change.bounds() {
+            let [first, last] = [low, high].map(|at| square(at[0], west, grid.width));
+            let [bottom, top] = [low, high].map(|at| square(-at[1], -north, grid.height));
+            squares.extend((top..=bottom).flat_map(|row| (first..=last).map(move |c| (c, row))));
+        }
+        let is_within = |at: [f64; 2]| change.is_within(at.map(|x| x as f32));
+        let kept = |at| is_within(at) && kept(at);
+        Self::in_squares(city, grid, squares.into_iter().collect(), kept)
+    }
+
+    fn in_squares(
+        city: &City,
+        grid: &Grid,
+        squares: Vec<(u32, u32)>,
+        kept: impl Fn([f64; 2]) -> bool + Sync,
+    ) -> Self {
+        let (ground, inside) = (Ground::new(city), Inside::new(city));
         let parts: Vec<Self> = squares
             .into_par_iter()
             .map(|(column, row)| {
@@ -52,13 +86,36 @@ impl Tiles {
             .collect();
         let mut all = Self::default();
         for part in parts {
-            let before = all.places.len();
-            all.places.extend(part.places);
-            all.indices.extend(part.indices);
-            all.ends
-                .extend(part.ends.into_iter().map(|end| before + end));
+            all.append(part);
         }
         all
+    }
+
+    /// Adds others behind these.
+    pub(crate) fn append(&mut self, others: Self) {
+        let before = self.places.len();
+        self.places.extend(others.places);
+        self.indices.extend(others.indices);
+        let ends = others.ends.into_iter().map(|end| before + end);
+        self.ends.extend(ends);
+    }
+
+    /// Some of the tiles, and of them the places that are to be `kept`.
+    pub(crate) fn some(&self, which: &[usize], kept: impl Fn(Point3) -> bool) -> Self {
+        let mut some = Self::default();
+        for &tile in which {
+            for index in self
+                .range(tile..tile + 1)
+                .filter(|&index| kept(self.places[index]))
+            {
+                some.places.push(self.places[index]);
+                some.indices.push(self.indices[index]);
+            }
+            if some.places.len() > some.ends.last().copied().unwrap_or(0) {
+                some.ends.push(some.places.len());
+            }
+        }
+        some
     }
 
     /// A list of places, in tiles that are full but for the last one. Which are near one another is found

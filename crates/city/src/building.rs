@@ -71,6 +71,15 @@ pub enum Surface {
     Untold,
 }
 
+impl Building {
+    /// The least box around it on the ground: its lowest and its highest corner.
+    #[must_use]
+    pub fn bounds(&self) -> [[f32; 2]; 2] {
+        let corners = self.parts.iter().flat_map(Part::bounds);
+        crate::polygon::bounds(corners)
+    }
+}
+
 impl Part {
     /// The z of its lowest and of its highest place, metres.
     #[must_use]

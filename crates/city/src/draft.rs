@@ -105,6 +105,19 @@ impl Draft {
             return Err(CityError::NothingThere { findings });
         };
         let origin = Origin::new(self.crs.clone(), centre)?;
+        self.placed(origin)
+    }
+
+    /// The same about the origin of another city, whatever its map, so that both can become one.
+    ///
+    /// # Errors
+    /// As those of [`finish`](Self::finish).
+    pub fn finish_about(self, origin: &Origin) -> Result<City, CityError> {
+        let origin = origin.on_map(self.crs.clone());
+        self.placed(origin)
+    }
+
+    fn placed(mut self, origin: Origin) -> Result<City, CityError> {
         let [buildings, parts] = [self.buildings, self.parts].map(|drafts| {
             let placed = drafts.into_iter().filter_map(|draft| {
                 // The first name is for messages about the whole.

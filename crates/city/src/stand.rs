@@ -74,7 +74,8 @@ pub(crate) fn elsewhere(field: &HeightField, origin: &Origin) -> CityError {
     }
 }
 
-fn stand(building: &mut Building, ground: f32, place: &str, notes: &mut Notes) {
+/// Puts a building on ground: outlines come along, faces reach down to it.
+pub(crate) fn stand(building: &mut Building, ground: f32, place: &str, notes: &mut Notes) {
     let before = building.ground;
     let mut has_faces = false;
     for part in &mut building.parts {

@@ -3,7 +3,7 @@
 use ombra_accel::Level;
 
 use super::lanes::{Lanes, Pair, Portable};
-use super::walk::{Waiting, walk};
+use super::walk::{Waiting, reaches, walk};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
@@ -45,6 +45,19 @@ mod x86 {
         // SAFETY: the caller's promise.
         unsafe { add::<Avx2, Avx512>(job, room, seconds) }
     }
+
+    /// # Safety
+    /// - The processor has AVX2.
+    #[target_feature(enable = "avx2")]
+    pub(super) unsafe fn may_cover(
+        occluders: &Occluders,
+        ways: &Ways,
+        around: [[f32; 3]; 2],
+        room: &mut Room,
+    ) -> bool {
+        // SAFETY: the caller's promise.
+        unsafe { reaches::<Avx2>(occluders, ways, around, &mut room.waiting) }
+    }
 }
 
 /// Before what, on which ways, seen from where: of ways and tiles there are at most [`TOGETHER`], multiplied.
@@ -69,6 +82,23 @@ pub(crate) fn add_seconds(level: Level, job: Job<'_>, room: &mut Room, seconds: 
         Level::Avx512 => unsafe { x86::avx512(job, room, seconds) },
         // SAFETY: every processor has these.
         _ => unsafe { add::<Portable, Pair<Portable>>(job, room, seconds) },
+    }
+}
+
+/// Whether any polygon may cover anything of the ways, seen from anywhere in a box.
+pub(crate) fn may_cover(
+    level: Level,
+    occluders: &Occluders,
+    ways: &Ways,
+    around: [[f32; 3]; 2],
+    room: &mut Room,
+) -> bool {
+    match level {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: a level is one that this machine has, and with AVX-512 it has AVX2.
+        Level::Avx2 | Level::Avx512 => unsafe { x86::may_cover(occluders, ways, around, room) },
+        // SAFETY: every processor has these.
+        _ => unsafe { reaches::<Portable>(occluders, ways, around, &mut room.waiting) },
     }
 }
 

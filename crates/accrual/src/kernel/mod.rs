@@ -11,6 +11,6 @@ mod prefetch;
 mod reference;
 mod walk;
 
-pub(crate) use dispatch::{Job, Room, add_seconds};
+pub(crate) use dispatch::{Job, Room, add_seconds, may_cover};
 #[cfg(test)]
 pub(crate) use reference::{Side, covered};

@@ -48,7 +48,7 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
     let nodes = occluders.tree.nodes();
     // SAFETY: the caller's promise.
     unsafe {
-        let around = Around::<N>::new(tiles, occluders.reach);
+        let around = Around::<N>::new(Tile::around(tiles), occluders.reach);
         let mut node = occluders.tree.root();
         let mut arcs = [0, ways.len() - 1];
         let mut full = if ways.len() < MOST {
@@ -87,6 +87,38 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
     }
 }
 
+/// Whether the walk comes to any polygon, seen from anywhere in a box, while nothing is covered. Where it does not, none covers anything.
+///
+/// # Safety
+/// - The processor has the instructions of `N`.
+#[inline(always)]
+pub(super) unsafe fn reaches<N: Lanes>(
+    occluders: &Occluders,
+    ways: &Ways,
+    around: [[f32; 3]; 2],
+    waiting: &mut Vec<Waiting>,
+) -> bool {
+    waiting.clear();
+    let nodes = occluders.tree.nodes();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let around = Around::<N>::new(around, occluders.reach);
+        let mut node = occluders.tree.root();
+        let mut arcs = [0, ways.len() - 1];
+        loop {
+            around.push(occluders, &nodes[node], arcs, ways, 0, waiting);
+            let Some(next) = waiting.pop() else {
+                return false;
+            };
+            if next.child.leaf().is_some() {
+                return true;
+            }
+            node = next.child.node();
+            arcs = next.arcs.map(usize::from);
+        }
+    }
+}
+
 /// Without what is covered for all places at either end.
 #[inline(always)]
 pub(super) fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
@@ -111,8 +143,7 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn new(tiles: &[Tile], reach: f32) -> Self {
-        let [[x, y, z], [u, v, w]] = Tile::around(tiles);
+    unsafe fn new([[x, y, z], [u, v, w]]: [[f32; 3]; 2], reach: f32) -> Self {
         let size = x.abs().max(y.abs()).max(z.abs());
         let size = size.max(u.abs()).max(v.abs()).max(w.abs());
         // Against rounding of differences.

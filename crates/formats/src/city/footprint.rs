@@ -126,6 +126,29 @@ pub(super) fn attribute<'a>(
     })
 }
 
+/// Attributes that name a building where its file has no place of its own for that, the first that is there.
+const NAMES: [&str; 9] = [
+    "id",
+    "building_id",
+    "bin",
+    "gml_id",
+    "identifier",
+    "uuid",
+    "osm_id",
+    "objectid",
+    "fid",
+];
+
+/// What an outline is called by its attributes, in whatever capitals.
+pub(super) fn name_among(attributes: &Map<String, Value>) -> Option<String> {
+    let value = |name: &&str| {
+        let mut all = attributes.iter();
+        let found = all.find(|(key, _)| key.eq_ignore_ascii_case(name));
+        self::name(found.map(|(_, value)| value))
+    };
+    NAMES.iter().find_map(value)
+}
+
 /// A name that is a text or a number.
 pub(super) fn name(value: Option<&Value>) -> Option<String> {
     match value? {

@@ -7,7 +7,7 @@ use ombra_city::{Crs, Draft, Notes};
 use serde::de::{DeserializeSeed, IgnoredAny, MapAccess, Visitor};
 use serde_json::{Map, Value};
 
-use super::footprint::{Closing, Outline, add, name};
+use super::footprint::{Closing, Outline, add, name, name_among};
 use super::json::{Each, parse, parse_into};
 use super::{CityOptions, unplaceable, wrong};
 use crate::error::{FormatError, shown};
@@ -161,7 +161,8 @@ fn of_geometry(draft: &mut Draft, feature: &Feature<'_>, options: &CityOptions) 
         &mut draft.notes,
     );
     if !outlines.is_empty() {
-        let name = (feature.id.clone(), feature.place.to_owned());
+        let id = (feature.id.clone()).or_else(|| name_among(feature.properties));
+        let name = (id, feature.place.to_owned());
         add(
             draft,
             outlines,

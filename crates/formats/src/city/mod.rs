@@ -43,7 +43,7 @@ pub(crate) mod tests;
 use std::path::Path;
 
 use ombra_city::heights::Heights;
-use ombra_city::{City, CityError, Crs, Draft, Extent};
+use ombra_city::{City, CityError, Crs, Draft, Extent, Origin};
 
 use crate::elevation;
 use crate::error::{Fault, FormatError};
@@ -93,6 +93,32 @@ pub fn read_city_bytes(
     options: &CityOptions,
 ) -> Result<City, FormatError> {
     read(&Input::in_memory(name.as_ref(), bytes), options)
+}
+
+/// Reads a city into the local metres of another one, so that its buildings can be [added](ombra_city::Edits) to that.
+///
+/// # Errors
+/// As those of [`read_city`]; and for a surface model, which has no buildings.
+pub fn read_city_about(
+    path: impl AsRef<Path>,
+    options: &CityOptions,
+    origin: &Origin,
+) -> Result<City, FormatError> {
+    let input = Input::on_disk(path.as_ref());
+    let read = || {
+        let bytes = input.source(&options.limits)?.rest()?;
+        if bytes.is_empty() {
+            return Err(FormatError::file(Fault::Empty));
+        }
+        if elevation::is_tiff(&bytes) {
+            let message =
+                "a surface model has no buildings to be added; outlines with heights are wanted";
+            return Err(wrong("GeoTIFF", message));
+        }
+        let draft = Format::of(&bytes)?.read(options)?;
+        draft.finish_about(origin).map_err(unplaceable)
+    };
+    read().map_err(|error| error.in_file(input.name()))
 }
 
 fn read(input: &Input<'_>, options: &CityOptions) -> Result<City, FormatError> {

@@ -4,7 +4,7 @@ use ombra_city::{Crs, Draft};
 use serde_json::{Map, Value};
 
 use super::CityOptions;
-use super::footprint::{Closing, Outline, add, name};
+use super::footprint::{Closing, Outline, add, name_among};
 use super::json::{Each, parse_into};
 use crate::error::FormatError;
 
@@ -34,7 +34,7 @@ fn polygon(draft: &mut Draft, index: usize, element: &Value, options: &CityOptio
     };
     match outline {
         Ok(outline) => {
-            let named = (name(attributes.get("id")), place);
+            let named = (name_among(attributes), place);
             add(
                 draft,
                 vec![outline],

@@ -1,0 +1,254 @@
+//! What is measured again when a city changes: only what the change can touch.
+//!
+//! The shadow of a place is a union of what polygons cover, and a union does not depend on the order of what it is of. So where
+//! the polygons that come and go cover nothing, all days through, it is what it was, to the bit. Whether they do
+//! is looked at for many tiles at once first, as boxes, and then tile by tile as exactly as all is measured.
+
+use ombra_city::Change;
+use ombra_geometry::Point3;
+use ombra_sun::Sheet;
+use rayon::prelude::*;
+
+use crate::exact::Exact;
+use crate::kernel::Room;
+use crate::occluder::Occluders;
+use crate::tile::{PLACES, Tile, is_somewhere};
+use crate::tiles::Tiles;
+
+/// Tiles that are looked at as one box first: those of a square of the ground.
+const BLOCK: usize = 64;
+
+/// And as one box next.
+const PART: usize = 4;
+
+/// The places that are measured again after a change of the city.
+#[derive(Clone, Debug, Default)]
+pub struct Again {
+    tiles: Tiles,
+    /// Which places, by their indices, do not keep what they had: they are measured again or lie in a building now.
+    unsettled: Vec<u32>,
+}
+
+impl Again {
+    /// After a change, of what was measured `before` on the same ways of the sun. `fresh` are the places that lie in no building
+    /// after it, of all those that it may put into one or out of one ([`Change::is_within`]).
+    #[must_use]
+    pub fn new(change: &Change, sheets: &[Sheet], before: &Tiles, fresh: Tiles) -> Self {
+        let occluders = Occluders::new(change.facets());
+        let exact = Exact::new(&occluders, sheets);
+        let is_within = |place: Point3| change.is_within([place.x, place.y]);
+        let blocks = (0..before.len()).into_par_iter().step_by(BLOCK);
+        let found: Vec<(Vec<usize>, Vec<u32>)> = blocks
+            .map_init(Room::new, |room, first| {
+                let block = first..before.len().min(first + BLOCK);
+                let around = around(before, block.clone());
+                let [low, high] = around;
+                let meets = |[from, to]: &[[f32; 2]; 2]| {
+                    (0..2).all(|k| low[k] <= to[k] && from[k] <= high[k])
+                };
+                let mut unsettled = Vec::new();
+                if change.bounds().iter().any(meets) {
+                    let all = before.range(block.clone());
+                    let within = all.filter(|&place| is_within(before.places()[place]));
+                    unsettled.extend(within.map(|place| before.indices()[place]));
+                }
+                let mut touched = Vec::new();
+                if exact.may_shade(around, room) {
+                    for first in block.clone().step_by(PART) {
+                        let part = first..block.end.min(first + PART);
+                        if exact.may_shade(self::around(before, part.clone()), room) {
+                            touched.extend(part.filter(|&t| is_shaded(&exact, before, t, room)));
+                        }
+                    }
+                }
+                (touched, unsettled)
+            })
+            .collect();
+        let (touched, unsettled): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+        let mut tiles = before.some(&touched.concat(), |place| !is_within(place));
+        tiles.append(fresh);
+        Self {
+            tiles,
+            unsettled: unsettled.concat(),
+        }
+    }
+
+    /// What is to be measured, of the city as it is now.
+    #[must_use]
+    pub fn tiles(&self) -> &Tiles {
+        &self.tiles
+    }
+
+    /// What holds after the change: `before` are all values by index, `measured` those of [`tiles`](Self::tiles). A place that lies in
+    /// a building now has `nothing`.
+    #[must_use]
+    pub fn after<T: Copy>(&self, before: &[T], measured: &[T], nothing: T) -> Vec<T> {
+        let mut after = before.to_vec();
+        for &index in &self.unsettled {
+            after[index as usize] = nothing;
+        }
+        for (&index, &value) in self.tiles.indices().iter().zip(measured) {
+            after[index as usize] = value;
+        }
+        after
+    }
+}
+
+/// The box around the places of some tiles.
+fn around(tiles: &Tiles, which: std::ops::Range<usize>) -> [[f32; 3]; 2] {
+    let places = tiles.places()[tiles.range(which)].iter();
+    let nothing = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+    (places.filter(|place| is_somewhere(place))).fold(nothing, |[low, high], place| {
+        let at = place.to_array();
+        [
+            [0, 1, 2].map(|k| low[k].min(at[k])),
+            [0, 1, 2].map(|k| high[k].max(at[k])),
+        ]
+    })
+}
+
+fn is_shaded(exact: &Exact<'_>, tiles: &Tiles, tile: usize, room: &mut Room) -> bool {
+    let places = &tiles.places()[tiles.range(tile..tile + 1)];
+    let sums: [f64; PLACES] = exact.sums(&[Tile::new(places)], room)[0];
+    sums.iter().any(|&seconds| seconds > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use ombra_city::{City, Edits, Grid, demo_city, procedural_city};
+    use ombra_sun::{Hours, Place, Refraction, Sky};
+
+    use super::*;
+
+    fn sheets(city: &City, dates: &[(i16, i8, i8)]) -> Vec<Sheet> {
+        let place = Place::new(city.origin.latitude(), city.origin.longitude(), 0.0).unwrap();
+        let sky = Sky::new(place, Refraction::None).unwrap();
+        let zone = place.time_zone().unwrap();
+        let spans = (dates.iter())
+            .flat_map(|&(y, m, d)| Hours::default().spans(&sky, &zone, jiff::civil::date(y, m, d)));
+        spans.flat_map(|span| Sheet::cover(&sky, span)).collect()
+    }
+
+    /// By cell; NaN in buildings.
+    fn whole(city: &City, grid: &Grid, sheets: &[Sheet]) -> (Tiles, Vec<f64>) {
+        let tiles = Tiles::on_ground(city, grid, |_| true);
+        let occluders = Occluders::new(&city.facets());
+        let seconds = Exact::new(&occluders, sheets).seconds_of(&tiles, 0..tiles.len());
+        let mut cells = vec![f64::NAN; grid.count()];
+        for (&index, seconds) in tiles.indices().iter().zip(seconds) {
+            cells[index as usize] = seconds;
+        }
+        (tiles, cells)
+    }
+
+    fn check(before: &City, after: &City, grid: &Grid, sheets: &[Sheet]) -> [usize; 2] {
+        let (tiles, seconds) = whole(before, grid, sheets);
+        let (_, expected) = whole(after, grid, sheets);
+        let change = Change::between(before, after);
+        let fresh = Tiles::on_changed_ground(after, grid, &change, |_| true);
+        let again = Again::new(&change, sheets, &tiles, fresh);
+        let occluders = Occluders::new(&after.facets());
+        let exact = Exact::new(&occluders, sheets);
+        let measured = exact.seconds_of(again.tiles(), 0..again.tiles().len());
+        let found = again.after(&seconds, &measured, f64::NAN);
+        let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert!(bits(&found) == bits(&expected), "not as measured anew");
+        let differ = |a: &f64, b: &f64| a.to_bits() != b.to_bits();
+        let changed = seconds.iter().zip(&expected);
+        let changed = changed.filter(|(a, b)| differ(a, b)).count();
+        [changed, again.tiles().places().len()]
+    }
+
+    /// Numbers that look random and are always the same (SplitMix64).
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn below(&mut self, most: usize) -> usize {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ z >> 31) % most as u64) as usize
+        }
+    }
+
+    /// A few buildings go, a few get another height, and a few of another city come, where they stand in streets and over others.
+    fn edits(city: &City, numbers: &mut Numbers) -> Edits {
+        let count = city.buildings.len();
+        let mut named: Vec<usize> = (0..5).map(|_| numbers.below(count)).collect();
+        named.sort_unstable();
+        named.dedup();
+        let (gone, other) = named.split_at(numbers.below(named.len() + 1));
+        let from = procedural_city(numbers.below(1000) as u64, 60).buildings;
+        Edits {
+            with: (0..numbers.below(4))
+                .map(|_| from[numbers.below(from.len())].clone())
+                .collect(),
+            without: gone.iter().map(|number| format!("#{number}")).collect(),
+            heights: (other.iter())
+                .map(|number| (format!("#{number}"), 1.0 + numbers.below(250) as f64))
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn it_comes_out_as_if_all_were_measured_again() {
+        let mut numbers = Numbers(7);
+        let [mut changed, mut measured, mut all] = [0; 3];
+        for round in 0..24 {
+            let city = match round % 4 {
+                0 => demo_city(),
+                _ => procedural_city(round, 40 + 60 * (round as usize % 4)),
+            };
+            let grid = Grid::over(&city.facets(), [3.0, 4.0, 7.0][round as usize % 3]).unwrap();
+            let days = [[(2026, 12, 21)], [(2026, 3, 20)], [(2026, 6, 21)]][round as usize % 3];
+            let sheets = sheets(&city, &days);
+            let after = city.edited(&edits(&city, &mut numbers)).unwrap();
+            let [own, again] = check(&city, &after, &grid, &sheets);
+            changed += own;
+            measured += again;
+            all += grid.count();
+        }
+        assert!(
+            changed > 1000 && changed <= measured,
+            "{changed} {measured}"
+        );
+        assert!(measured < all, "{measured} of {all}");
+    }
+
+    #[test]
+    fn several_days_and_other_edits_of_the_same_city() {
+        let city = procedural_city(9, 400);
+        let grid = Grid::over(&city.facets(), 6.0).unwrap();
+        let dates = [1, 3, 5, 7, 9, 11].map(|month| (2026, month, 21));
+        let sheets = sheets(&city, &dates);
+        let mut numbers = Numbers(3);
+        for _ in 0..4 {
+            let after = city.edited(&edits(&city, &mut numbers)).unwrap();
+            check(&city, &after, &grid, &sheets);
+        }
+    }
+
+    #[test]
+    fn without_a_change_nothing_is_measured() {
+        let city = procedural_city(4, 50);
+        let grid = Grid::over(&city.facets(), 5.0).unwrap();
+        let sheets = sheets(&city, &[(2026, 6, 21)]);
+        assert_eq!(check(&city, &city, &grid, &sheets), [0, 0]);
+    }
+
+    #[test]
+    fn all_may_go() {
+        let city = procedural_city(4, 12);
+        let grid = Grid::over(&city.facets(), 3.0).unwrap();
+        let all = Edits {
+            without: (0..12).map(|number| format!("#{number}")).collect(),
+            ..Edits::default()
+        };
+        let after = city.edited(&all).unwrap();
+        let sheets = sheets(&city, &[(2026, 6, 21)]);
+        let [changed, measured] = check(&city, &after, &grid, &sheets);
+        assert!(changed > 0 && changed <= measured);
+        assert_eq!(check(&after, &city, &grid, &sheets)[0], changed);
+    }
+}
