@@ -11,6 +11,7 @@ mod report;
 mod samples;
 mod tables;
 mod timing;
+mod what_if;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -29,6 +30,8 @@ use crate::against::processor::HAS_THREAD_CLOCK;
 use crate::machine::Machine;
 
 pub use self::report::{CityRecord, Difference, JobRecord, OwnRecord, Ratio, Report, Timed};
+
+pub use self::what_if::{WhatIfRecord, what_if};
 
 pub(crate) use self::samples::Samples;
 

@@ -140,6 +140,19 @@ impl Cover {
         }
     }
 
+    /// What is added for an arc of length 1, by place: of its beginning and end, and of its pieces.
+    pub(crate) fn shares(&self, arc: usize) -> [[f64; PLACES]; 2] {
+        let mut shares = [[1.0; PLACES], [0.0; PLACES]];
+        for place in 0..PLACES {
+            let (before, after) = (self.before[arc][place], self.after[arc][place]);
+            if before + JOIN < after {
+                shares[0][place] = 1.0 - (f64::from(after) - f64::from(before));
+            }
+        }
+        self.add_pieces(arc, 1.0, &mut shares[1]);
+        shares
+    }
+
     /// Shares are added up before they are multiplied: such sums are exact, so that the order in which pieces came
     /// does not matter.
     #[inline(never)]

@@ -10,7 +10,7 @@ use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
-use crate::kernel::{Job, Room, add_seconds, may_cover};
+use crate::kernel::{Job, Room, add_seconds, changes};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile, is_somewhere};
 use crate::tiles::Tiles;
@@ -25,6 +25,8 @@ const NEAR: f32 = 16.0;
 #[derive(Debug)]
 pub struct Exact<'a> {
     occluders: &'a Occluders,
+    /// What throws shadow besides.
+    more: Option<&'a Occluders>,
     ways: Vec<Ways>,
     level: Level,
 }
@@ -37,6 +39,7 @@ impl<'a> Exact<'a> {
         let sheets = sheets.par_iter().filter(|sheet| !sheet.arcs().is_empty());
         Self {
             occluders,
+            more: None,
             ways: Ways::together(sheets.map(Way::new).collect()),
             level: Level::detect(),
         }
@@ -46,6 +49,14 @@ impl<'a> Exact<'a> {
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
+    }
+
+    /// The same with more polygons besides.
+    pub(crate) fn with(self, more: &'a Occluders) -> Self {
+        Self {
+            more: Some(more),
+            ..self
+        }
     }
 
     /// How many seconds each place lies in shadow. Places that come one after another, sixteen each,
@@ -65,10 +76,26 @@ impl<'a> Exact<'a> {
         by_tiles(lists, |tiles, room| self.sums(tiles, room))
     }
 
-    /// Whether any polygon may come before the sun at any time, seen from anywhere in a box. Where none may, no
-    /// place in it has a second in shadow.
-    pub(crate) fn may_shade(&self, around: [[f32; 3]; 2], room: &mut Room) -> bool {
-        (self.ways.iter()).any(|ways| may_cover(self.level, self.occluders, ways, around, room))
+    /// The ways of the sun.
+    pub(crate) fn ways(&self) -> &[Ways] {
+        &self.ways
+    }
+
+    /// Whether the polygons that it has besides make a difference to any place of a tile.
+    pub(crate) fn changes(&self, tile: Tile, room: &mut Room) -> bool {
+        (self.ways.iter()).any(|ways| {
+            let job = Job {
+                occluders: self.occluders,
+                more: self.more,
+                ways,
+                tiles: &[tile],
+            };
+            changes(self.level, job, room)
+        })
+    }
+
+    pub(crate) const fn level(&self) -> Level {
+        self.level
     }
 
     /// How many seconds each place of some tiles lies in shadow.
@@ -96,6 +123,7 @@ impl<'a> Exact<'a> {
                 let mut seconds = [[0.0; PLACES]; TOGETHER];
                 let job = Job {
                     occluders: self.occluders,
+                    more: self.more,
                     ways,
                     tiles,
                 };

@@ -1,5 +1,7 @@
 //! What throws shadow: convex polygons in a tree of boxes.
 
+use std::collections::HashMap;
+
 use ombra_accel::BoxTree;
 use ombra_city::Facet;
 use ombra_geometry::{Aabb, Point3};
@@ -20,7 +22,7 @@ pub(crate) struct Occluder {
 }
 
 /// Everything that throws shadow, found by where it is.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Occluders {
     pub(crate) list: Vec<Occluder>,
     pub(crate) tree: BoxTree,
@@ -41,6 +43,29 @@ impl Occluders {
         });
         let tree = BoxTree::build(&boxes);
         Self { list, tree, reach }
+    }
+
+    /// Without some of them: they stay where they are and are seen from nowhere. Of polygons that are there several times so many
+    /// go as are named.
+    #[must_use]
+    pub(crate) fn without(&self, facets: &[Facet]) -> Self {
+        let bits = |corner: &[[f32; 3]; 4]| corner.map(|at| at.map(f32::to_bits));
+        let mut named: HashMap<_, usize> = HashMap::new();
+        for own in facets.iter().filter_map(Occluder::new) {
+            *named
+                .entry((bits(&own.corner), own.is_two_sided))
+                .or_default() += 1;
+        }
+        let mut left = self.clone();
+        for own in &mut left.list {
+            if let Some(count) = named.get_mut(&(bits(&own.corner), own.is_two_sided))
+                && *count > 0
+            {
+                *count -= 1;
+                own.normal = [0.0; 3];
+            }
+        }
+        left
     }
 
     /// How many polygons there are.

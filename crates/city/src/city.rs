@@ -45,17 +45,7 @@ impl City {
     pub fn facets(&self) -> Vec<Facet> {
         let mut facets = Vec::new();
         for (owner, building) in self.buildings.iter().enumerate() {
-            let owner = owner as u32;
-            for part in &building.parts {
-                match part {
-                    Part::Prism(prism) => self.push_prism(&mut facets, prism, building, owner),
-                    Part::Faces(faces) => {
-                        let low = part.range()[0];
-                        let bottom = self.bottom(low, building);
-                        push_faces(&mut facets, faces, [low, bottom], owner);
-                    }
-                }
-            }
+            self.push_building(&mut facets, building, owner as u32);
         }
         let triangle = |&[a, b, c]: &[Point3; 3], owner| Facet {
             corners: [a, b, c, c],
@@ -65,6 +55,19 @@ impl City {
         facets.extend((self.terrain.iter()).map(|corners| triangle(corners, Facet::TERRAIN)));
         facets.extend((self.context.iter()).map(|corners| triangle(corners, Facet::CONTEXT)));
         facets
+    }
+
+    pub(crate) fn push_building(&self, facets: &mut Vec<Facet>, building: &Building, owner: u32) {
+        for part in &building.parts {
+            match part {
+                Part::Prism(prism) => self.push_prism(facets, prism, building, owner),
+                Part::Faces(faces) => {
+                    let low = part.range()[0];
+                    let bottom = self.bottom(low, building);
+                    push_faces(facets, faces, [low, bottom], owner);
+                }
+            }
+        }
     }
 
     /// The z where a part begins: that of the flat ground for one that stands on the ground.

@@ -58,7 +58,7 @@ pub use building::{Building, Face, Faces, Part, Prism, Surface};
 pub use city::City;
 pub use crs::Crs;
 pub use draft::{Draft, DraftBuilding, DraftFace, DraftPart};
-pub use edit::{Change, EditError, Edits};
+pub use edit::{Change, EditError, Edited, Edits};
 pub use error::CityError;
 pub use extent::Extent;
 pub use facet::Facet;

@@ -2,8 +2,9 @@
 
 use ombra_accel::Level;
 
+use super::differs::differs;
 use super::lanes::{Lanes, Pair, Portable};
-use super::walk::{Waiting, reaches, walk};
+use super::walk::{Waiting, clear, reaches, walk};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
@@ -58,12 +59,22 @@ mod x86 {
         // SAFETY: the caller's promise.
         unsafe { reaches::<Avx2>(occluders, ways, around, &mut room.waiting) }
     }
+
+    /// # Safety
+    /// - The processor has AVX2.
+    #[target_feature(enable = "avx2")]
+    pub(super) unsafe fn changes(job: Job<'_>, room: &mut Room) -> bool {
+        // SAFETY: the caller's promise.
+        unsafe { differs::<Avx2, Pair<Avx2>>(job, &mut room.covers, &mut room.waiting) }
+    }
 }
 
 /// Before what, on which ways, seen from where: of ways and tiles there are at most [`TOGETHER`], multiplied.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
     pub(crate) occluders: &'a Occluders,
+    /// What covers the sun besides.
+    pub(crate) more: Option<&'a Occluders>,
     pub(crate) ways: &'a Ways,
     pub(crate) tiles: &'a [Tile],
 }
@@ -102,6 +113,19 @@ pub(crate) fn may_cover(
     }
 }
 
+/// Whether `more` of a job covers anything that its occluders do not cover anyway, seen from any place of its tile, of which there is one.
+pub(crate) fn changes(level: Level, job: Job<'_>, room: &mut Room) -> bool {
+    match level {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx2 | Level::Avx512 => unsafe { x86::changes(job, room) },
+        // SAFETY: every processor has these.
+        _ => unsafe {
+            differs::<Portable, Pair<Portable>>(job, &mut room.covers, &mut room.waiting)
+        },
+    }
+}
+
 /// # Safety
 /// - The processor has the instructions of both.
 #[inline(always)]
@@ -109,8 +133,11 @@ unsafe fn add<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut Room, seconds: &mut S
     let Room { covers, waiting } = room;
     let ways = job.ways.list();
     let covers = &mut covers[..ways.len() * job.tiles.len()];
-    // SAFETY: the caller's promise.
-    unsafe { walk::<N, P>(job.occluders, job.ways, job.tiles, covers, waiting) };
+    clear(job.ways, covers);
+    for occluders in [Some(job.occluders), job.more].into_iter().flatten() {
+        // SAFETY: the caller's promise.
+        unsafe { walk::<N, P>(occluders, job.ways, job.tiles, covers, waiting) };
+    }
     let ways = ways.iter().cycle();
     for ((cover, way), seconds) in covers.iter().zip(ways).zip(seconds) {
         cover.add_seconds(&way.seconds, seconds);

@@ -4,6 +4,7 @@
     reason = "vector instructions, and reads without a check of what a tree is known to hold"
 )]
 
+mod differs;
 mod dispatch;
 mod lanes;
 mod polygon;
@@ -11,6 +12,6 @@ mod prefetch;
 mod reference;
 mod walk;
 
-pub(crate) use dispatch::{Job, Room, add_seconds, may_cover};
+pub(crate) use dispatch::{Job, Room, add_seconds, changes, may_cover};
 #[cfg(test)]
 pub(crate) use reference::{Side, covered};

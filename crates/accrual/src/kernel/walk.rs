@@ -12,7 +12,6 @@ use super::polygon::polygon;
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::Tile;
-use crate::way::MOST;
 use crate::ways::{TURN_PAD, Ways};
 
 /// What waits to be looked at.
@@ -25,7 +24,14 @@ pub(crate) struct Waiting {
     steep: f32,
 }
 
-/// Covers what of the ways is covered for the tiles: a cover for each way of each tile. `N` has eight lanes, `P`
+/// Nothing of the ways is covered: a cover for each way of each tile.
+pub(super) fn clear(ways: &Ways, covers: &mut [Cover]) {
+    for (cover, way) in covers.iter_mut().zip(ways.list().iter().cycle()) {
+        cover.clear(way.len());
+    }
+}
+
+/// Covers what more of the ways is covered for the tiles: a cover for each way of each tile. `N` has eight lanes, `P`
 /// sixteen.
 ///
 /// # Safety
@@ -39,11 +45,6 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
     waiting: &mut Vec<Waiting>,
 ) {
     let count = ways.list().len();
-    for covers in covers.chunks_exact_mut(count) {
-        for (cover, way) in covers.iter_mut().zip(ways.list()) {
-            cover.clear(way.len());
-        }
-    }
     waiting.clear();
     let nodes = occluders.tree.nodes();
     // SAFETY: the caller's promise.
@@ -51,11 +52,9 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
         let around = Around::<N>::new(Tile::around(tiles), occluders.reach);
         let mut node = occluders.tree.root();
         let mut arcs = [0, ways.len() - 1];
-        let mut full = if ways.len() < MOST {
-            u64::MAX << ways.len()
-        } else {
-            0
-        };
+        let mut full = covers
+            .iter()
+            .fold(u64::MAX, |full, cover| full & cover.full);
         'search: loop {
             around.push(occluders, &nodes[node], arcs, ways, full, waiting);
             loop {

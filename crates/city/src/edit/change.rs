@@ -1,7 +1,6 @@
 //! What differs between a city before and after.
 
-use std::collections::HashMap;
-
+use super::Edited;
 use crate::building::Building;
 use crate::city::City;
 use crate::facet::Facet;
@@ -11,40 +10,59 @@ use crate::inside::grid::Grid;
 #[derive(Clone, Debug, Default)]
 pub struct Change {
     facets: Vec<Facet>,
+    /// How many of them were taken away; these come first.
+    removed: usize,
     bounds: Vec<[[f32; 2]; 2]>,
     grid: Grid,
 }
 
 impl Change {
-    /// Between two cities about the same origin on the same ground.
+    /// Between a city and what became of it.
     #[must_use]
-    pub fn between(before: &City, after: &City) -> Self {
-        let (old, new) = (before.facets(), after.facets());
-        // One counts up, the other down: what both have comes to nothing.
-        let mut balance: HashMap<Key, i64> = HashMap::with_capacity(old.len());
-        for facet in &old {
-            *balance.entry(key(facet)).or_default() += 1;
+    pub fn between(before: &City, after: &Edited) -> Self {
+        let mut stays = vec![false; before.buildings.len()];
+        for &number in after.kept.iter().flatten() {
+            stays[number as usize] = true;
         }
-        for facet in &new {
-            *balance.entry(key(facet)).or_default() -= 1;
-        }
+        let own = stays.iter().enumerate().filter(|(_, stays)| !**stays);
+        let own = own.map(|(number, _)| (before, number));
+        let new = after
+            .kept
+            .iter()
+            .enumerate()
+            .filter(|(_, kept)| kept.is_none());
+        let new = new.map(|(number, _)| (&after.city, number));
         let mut change = Self::default();
-        for (city, facets) in [(before, old), (after, new)] {
-            let mut owners = Vec::new();
-            for facet in facets.iter().filter(|facet| balance[&key(facet)] != 0) {
-                change.facets.push(*facet);
-                if owners.last() != Some(&facet.owner) {
-                    owners.push(facet.owner);
-                }
-            }
-            let buildings = (owners.iter()).filter_map(|&owner| city.buildings.get(owner as usize));
-            change.bounds.extend(buildings.map(Building::bounds));
+        for (city, number) in own {
+            change.add(city, number);
+        }
+        change.removed = change.facets.len();
+        for (city, number) in new {
+            change.add(city, number);
         }
         change.grid = Grid::new(&change.bounds);
         change
     }
 
-    /// The polygons that were taken away, then those that were added.
+    fn add(&mut self, city: &City, number: usize) {
+        let building: &Building = &city.buildings[number];
+        city.push_building(&mut self.facets, building, number as u32);
+        self.bounds.push(building.bounds());
+    }
+
+    /// The polygons that were taken away.
+    #[must_use]
+    pub fn removed(&self) -> &[Facet] {
+        &self.facets[..self.removed]
+    }
+
+    /// Those that were added.
+    #[must_use]
+    pub fn added(&self) -> &[Facet] {
+        &self.facets[self.removed..]
+    }
+
+    /// Both.
     #[must_use]
     pub fn facets(&self) -> &[Facet] {
         &self.facets
@@ -64,16 +82,4 @@ impl Change {
             (0..2).all(|k| low[k] <= place[k] && place[k] <= high[k])
         })
     }
-}
-
-/// A polygon as it is, whoever owns it.
-type Key = ([u32; 12], bool);
-
-fn key(facet: &Facet) -> Key {
-    let mut bits = [0; 12];
-    let numbers = facet.corners.iter().flat_map(|p| p.to_array());
-    for (bits, number) in bits.iter_mut().zip(numbers) {
-        *bits = number.to_bits();
-    }
-    (bits, facet.is_two_sided)
 }

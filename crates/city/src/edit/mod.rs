@@ -43,7 +43,7 @@ impl City {
     ///
     /// # Errors
     /// When no building or several have a name, or it is named twice, and when a height is no height.
-    pub fn edited(&self, edits: &Edits) -> Result<Self, EditError> {
+    pub fn edited(&self, edits: &Edits) -> Result<Edited, EditError> {
         let names = Names(&self.buildings);
         let mut fates = vec![Fate::Stays; self.buildings.len()];
         let gone = edits.without.iter().map(|name| (name, Fate::Goes));
@@ -57,11 +57,14 @@ impl City {
             }
             *own = fate;
         }
-        let mut city = self.clone();
-        city.buildings.clear();
+        let mut buildings = Vec::with_capacity(self.buildings.len() + edits.with.len());
+        let mut kept = Vec::with_capacity(buildings.capacity());
         for (number, (building, fate)) in self.buildings.iter().zip(fates).enumerate() {
             match fate {
-                Fate::Stays => city.buildings.push(building.clone()),
+                Fate::Stays => {
+                    buildings.push(building.clone());
+                    kept.push(Some(number as u32));
+                }
                 Fate::Goes => {}
                 Fate::Is(metres) => {
                     let stretched = stretch::to_height(building, metres);
@@ -70,19 +73,29 @@ impl City {
                         name: name(),
                         metres,
                     })?;
-                    city.buildings.push(stretched);
+                    buildings.push(stretched);
+                    kept.push(None);
                 }
             }
         }
         let mut notes = Notes::default();
         for building in &edits.with {
             let mut building = building.clone();
-            let place = format!("building {}", name(&building, city.buildings.len()));
+            let place = format!("building {}", name(&building, buildings.len()));
             self.stand_as_own(&mut building, &place, &mut notes);
-            city.buildings.push(building);
+            buildings.push(building);
+            kept.push(None);
         }
-        city.findings.extend(notes.into_findings());
-        Ok(city)
+        let findings = self.findings.iter().cloned();
+        let city = Self {
+            origin: self.origin.clone(),
+            buildings,
+            terrain: self.terrain.clone(),
+            context: self.context.clone(),
+            findings: findings.chain(notes.into_findings()).collect(),
+            ..*self
+        };
+        Ok(Edited { city, kept })
     }
 
     fn stand_as_own(&self, building: &mut Building, place: &str, notes: &mut Notes) {
@@ -105,6 +118,15 @@ impl City {
             stand(building, ground, place, notes);
         }
     }
+}
+
+/// A city as it would be.
+#[derive(Clone, Debug)]
+pub struct Edited {
+    /// All of it.
+    pub city: City,
+    /// For each of its buildings which one it was before, if it is as it was.
+    pub kept: Vec<Option<u32>>,
 }
 
 /// What becomes of a building.
@@ -165,13 +187,13 @@ mod tests {
     #[test]
     fn what_is_not_named_stays_as_it_is() {
         let city = procedural_city(1, 40);
-        let taken = city.edited(&without(&["#7", "#0"])).unwrap();
+        let taken = city.edited(&without(&["#7", "#0"])).unwrap().city;
         let mut expected = city.buildings.clone();
         expected.remove(7);
         expected.remove(0);
         assert_eq!(taken.buildings, expected);
         assert_eq!(taken.ground, city.ground);
-        let same = city.edited(&Edits::default()).unwrap();
+        let same = city.edited(&Edits::default()).unwrap().city;
         assert_eq!(same.buildings, city.buildings);
     }
 
@@ -183,7 +205,7 @@ mod tests {
             all.position(|b| b.id.as_deref() == Some(name)).unwrap()
         };
         let church = number("church");
-        let taller = city.edited(&height("church", 93.0)).unwrap();
+        let taller = city.edited(&height("church", 93.0)).unwrap().city;
         let parts = city.buildings[church].parts.iter();
         for (before, after) in parts.zip(&taller.buildings[church].parts) {
             let expected = before.range()[1] * 93.0 / 62.0;
@@ -197,7 +219,7 @@ mod tests {
         };
         assert_eq!(top(&taller), 93.0, "to the bit");
         let column = number("column");
-        let lower = city.edited(&height("column", 3.0)).unwrap();
+        let lower = city.edited(&height("column", 3.0)).unwrap().city;
         assert_eq!(lower.buildings[column].parts[0].range(), [0.0, 3.0]);
     }
 
@@ -221,7 +243,7 @@ mod tests {
             with: added.buildings,
             ..Edits::default()
         };
-        let after = city.edited(&edits).unwrap();
+        let after = city.edited(&edits).unwrap().city;
         let own = after.buildings.last().unwrap();
         assert_eq!((own.ground, own.parts[0].range()), (30.0, [30.0, 130.0]));
         let inside = Inside::new(&after);
@@ -231,7 +253,7 @@ mod tests {
         let at = |x: f32, y: f32| Point3::new(x, y, 0.01 * x);
         let [a, b, c] = [at(-900.0, -900.0), at(3000.0, -900.0), at(-900.0, 3000.0)];
         city.terrain = vec![[a, b, c]];
-        let after = city.edited(&edits).unwrap();
+        let after = city.edited(&edits).unwrap().city;
         let [low, high] = after.buildings.last().unwrap().parts[0].range();
         assert!((low - 5.0).abs() < 1e-3 && (high - low - 100.0).abs() < 1e-4);
     }
@@ -261,13 +283,24 @@ mod tests {
         let city = procedural_city(2, 30);
         let same = Change::between(&city, &city.edited(&Edits::default()).unwrap());
         assert!(same.facets().is_empty() && same.bounds().is_empty());
-        let after = city.edited(&without(&["#3"])).unwrap();
-        let gone = Change::between(&city, &after);
-        let before = city.facets();
-        let own: Vec<_> = before.iter().filter(|facet| facet.owner == 3).collect();
-        assert_eq!(gone.facets().iter().collect::<Vec<_>>(), own);
+        let gone = Change::between(&city, &city.edited(&without(&["#3"])).unwrap());
+        let own = |city: &City, number| {
+            let all = city.facets().into_iter();
+            all.filter(|facet| facet.owner == number)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(gone.removed(), own(&city, 3));
+        assert!(gone.added().is_empty());
         let [low, high] = city.buildings[3].bounds();
         let middle = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
         assert!(gone.is_within(middle) && !gone.is_within([low[0] - 1.0, low[1]]));
+        let lower = city.edited(&height("#5", 2.0)).unwrap();
+        let change = Change::between(&city, &lower);
+        assert_eq!(change.removed(), own(&city, 5));
+        assert_eq!(change.added(), own(&lower.city, 5));
+        assert_eq!(
+            change.facets().len(),
+            change.removed().len() + change.added().len()
+        );
     }
 }

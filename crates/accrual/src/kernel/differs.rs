@@ -1,0 +1,93 @@
+//! Whether more polygons make a difference to a tile.
+//!
+//! Far from a tower its shadow falls where the sun is low, and there others stand before the sun anyway. So only the arcs that
+//! the tower covers at all are looked at: what the others cover of them, and whether that is more with the tower.
+
+use super::dispatch::Job;
+use super::lanes::Lanes;
+use super::walk::{Waiting, clear, walk};
+use crate::cover::Cover;
+use crate::tile::PLACES;
+
+/// Whether `more` covers anything of an arc, for any place of the only tile, that the occluders of the job do not cover.
+///
+/// # Safety
+/// - The processor has the instructions of both.
+#[inline(always)]
+pub(super) unsafe fn differs<N: Lanes, P: Lanes>(
+    job: Job<'_>,
+    covers: &mut [Cover],
+    waiting: &mut Vec<Waiting>,
+) -> bool {
+    let Job {
+        occluders,
+        more: Some(more),
+        ways,
+        tiles,
+    } = job
+    else {
+        return false;
+    };
+    let covers = &mut covers[..ways.list().len() * tiles.len()];
+    clear(ways, covers);
+    // SAFETY: the caller's promise.
+    unsafe { walk::<N, P>(more, ways, tiles, covers, waiting) };
+    let mut asked = 0;
+    for (cover, way) in covers.iter_mut().zip(ways.list()) {
+        asked |= ask(cover, way.len());
+    }
+    if asked == 0 {
+        return false;
+    }
+    // SAFETY: the caller's promise.
+    unsafe { walk::<N, P>(occluders, ways, tiles, covers, waiting) };
+    let left: Vec<u64> = covers.iter().map(|cover| !cover.full).collect();
+    let shares = |covers: &[Cover]| -> Vec<[[f64; PLACES]; 2]> {
+        let each = covers.iter().zip(&left);
+        each.flat_map(|(cover, &left)| bits(left).map(|arc| cover.shares(arc)))
+            .collect()
+    };
+    let without = shares(covers);
+    if without.is_empty() {
+        return false;
+    }
+    // SAFETY: the caller's promise.
+    unsafe { walk::<N, P>(more, ways, tiles, covers, waiting) };
+    shares(covers) != without
+}
+
+/// Makes a cover ready to be asked about what it holds: nothing is covered of those arcs of those places of which it covers anything,
+/// and all else is. Gives the arcs.
+fn ask(cover: &mut Cover, arcs: usize) -> u64 {
+    let mut asked = 0;
+    let mut places = [[1.0_f32; PLACES]; crate::way::MOST];
+    for arc in 0..arcs {
+        let [ends, pieces] = cover.shares(arc);
+        for place in 0..PLACES {
+            // Even a share too small to be counted.
+            let is_touched = ends[place] > 0.0
+                || pieces[place] > 0.0
+                || cover.before[arc][place] > 0.0
+                || cover.after[arc][place] < 1.0;
+            if is_touched {
+                places[arc][place] = 0.0;
+                asked |= 1 << arc;
+            }
+        }
+    }
+    cover.clear(arcs);
+    for arc in bits(asked) {
+        cover.before[arc] = places[arc];
+    }
+    cover.full |= !asked;
+    asked
+}
+
+/// Which bits are set.
+fn bits(mut left: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = (left != 0).then(|| left.trailing_zeros() as usize);
+        left &= left.wrapping_sub(1);
+        bit
+    })
+}
