@@ -60,6 +60,8 @@ pub struct Options {
     pub every: usize,
     /// How many walls, of sixteen places each.
     pub walls: usize,
+    /// How wide the cells are over which one tower is changed, in metres.
+    pub what_if_cell: f64,
     /// How many times each contestant runs on the clock. 0 compares answers only.
     pub rounds: usize,
     /// Embree's library or its folder, if it is not where it is looked for.
@@ -77,6 +79,7 @@ impl Default for Options {
             year_places: 256,
             every: 1,
             walls: 64,
+            what_if_cell: 4.0,
             rounds: 5,
             embree: None,
         }
@@ -95,6 +98,7 @@ impl Options {
             year_places: 16,
             every: 90,
             walls: 2,
+            what_if_cell: 8.0,
             rounds: 1,
             ..Self::default()
         }
@@ -119,6 +123,7 @@ pub fn run(options: &Options, talk: &mut dyn FnMut(&str)) -> anyhow::Result<Repo
         cities: Vec::new(),
         jobs: Vec::new(),
         own: Vec::new(),
+        what_if: Vec::new(),
     };
     for name in &options.cities {
         let city = if name == PROCEDURAL {
@@ -181,12 +186,16 @@ fn measure(
     let tiles = Tiles::near(&ground);
     let fast = Fast::new(&occluders, &year.by_day, &tiles, TOLERANCE, || true);
     let fast = fast.context("nobody stops it")?;
-    let name = format!("within {} % by {} days", 100.0 * TOLERANCE, fast.days());
-    bench.against_rays_with("ground", &year, &few, &[(name, &fast)])?;
+    let within = format!("within {} % by {} days", 100.0 * TOLERANCE, fast.days());
+    bench.against_rays_with("ground", &year, &few, &[(within, &fast)])?;
     for period in [&short[2], &whole[0]] {
         talk(&format!("  instruction sets and threads, {}", period.name));
         bench.by_level(period, &ground)?;
         bench.by_threads(period, &ground)?;
+    }
+    if !city.buildings.is_empty() {
+        let found = what_if(name, city, options.what_if_cell, talk)?;
+        report.what_if.extend(found);
     }
     Ok(())
 }

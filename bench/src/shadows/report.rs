@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::what_if::WhatIfRecord;
 use crate::contest::Spread;
 use crate::machine::Machine;
 
@@ -24,6 +25,8 @@ pub struct Report {
     pub jobs: Vec<JobRecord>,
     /// Exact shadow time by instruction sets and threads.
     pub own: Vec<OwnRecord>,
+    /// One tower that is other than it was, against all measured anew.
+    pub what_if: Vec<WhatIfRecord>,
 }
 
 /// A city.

@@ -43,6 +43,7 @@ impl Report {
             )?;
             self.jobs(text, &city.city)?;
             self.own(text, &city.city)?;
+            self.what_if(text, &city.city)?;
         }
         Ok(())
     }
@@ -115,6 +116,36 @@ impl Report {
                 micros(own.micros),
                 word(|ratio| ratio.of_medians),
                 word(|ratio| ratio.of_best)
+            )?;
+        }
+        writeln!(text)
+    }
+}
+
+impl Report {
+    fn what_if(&self, text: &mut String, city: &str) -> fmt::Result {
+        let mut all = self
+            .what_if
+            .iter()
+            .filter(|own| own.city == city)
+            .peekable();
+        if all.peek().is_none() {
+            return Ok(());
+        }
+        let heads = "| what if one building were a tower | cells | places | change | measured again | all, s | again, s | share |";
+        writeln!(text, "{heads}\n|---|---|---|---|---|---|---|---|")?;
+        for own in all {
+            writeln!(
+                text,
+                "| {} | {} m | {} | {} | {} | {:.2} | {:.3} | {:.1} % |",
+                own.job,
+                own.cell,
+                own.places,
+                own.changed,
+                own.again,
+                own.full_seconds,
+                own.again_seconds,
+                100.0 * own.share()
             )?;
         }
         writeln!(text)

@@ -4,13 +4,16 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use ombra_accrual::{Again, Exact, Occluders, Tiles};
-use ombra_city::{Change, City, Edits, Grid};
+use ombra_city::{Building, Change, City, Edits, Grid};
 use serde::Serialize;
 
 use super::jobs::{Period, Skies};
 
-/// How tall a building in the middle becomes, in metres.
+/// How tall a building becomes, in metres.
 const TOWER: f64 = 150.0;
+
+/// And lower than so much it is before, in metres: of the generated city half are.
+const LOW: f32 = 25.0;
 
 /// One edit on one day, over the whole grid.
 #[derive(Clone, Debug, Serialize)]
@@ -43,7 +46,7 @@ impl WhatIfRecord {
     }
 }
 
-/// One building in the middle of a city becomes a tower: three whole days over a grid of such cells.
+/// One low building of a city becomes a tower: three whole days over a grid of such cells.
 ///
 /// # Errors
 /// When there is no such grid or no time zone, and when what was measured again is not what a full run gives, to the bit.
@@ -56,7 +59,7 @@ pub fn what_if(
     let facets = city.facets();
     let grid = Grid::over(&facets, cell)?;
     let tiles = Tiles::on_ground(city, &grid, |_| true);
-    let number = in_the_middle(city).context("a city without buildings")?;
+    let number = a_low_one(city).context("a city without buildings")?;
     let edits = Edits {
         heights: vec![(format!("#{number}"), TOWER)],
         ..Edits::default()
@@ -137,18 +140,28 @@ fn whole(occluders: &Occluders, tiles: &Tiles, period: &Period, cells: usize) ->
     values
 }
 
-/// The building nearest the middle of all.
-fn in_the_middle(city: &City) -> Option<usize> {
-    let middles: Vec<[f32; 2]> = (city.buildings.iter())
-        .map(|building| {
-            let [low, high] = building.bounds();
-            [0, 1].map(|k| 0.5 * (low[k] + high[k]))
-        })
-        .collect();
-    let count = middles.len() as f32;
-    let middle = [0, 1].map(|k| middles.iter().map(|at| at[k]).sum::<f32>() / count);
-    let away = |at: &[f32; 2]| (at[0] - middle[0]).hypot(at[1] - middle[1]);
-    let numbered = middles.iter().enumerate();
-    let nearest = numbered.min_by(|a, b| away(a.1).total_cmp(&away(b.1)));
+/// Of the buildings that are no towers yet the one nearest the middle of the south-western quarter: in the very middle of the generated
+/// city others stand so close that a tower more changes little.
+fn a_low_one(city: &City) -> Option<usize> {
+    let middle = |building: &Building| {
+        let [low, high] = building.bounds();
+        [0, 1].map(|k| 0.5 * (low[k] + high[k]))
+    };
+    let mut middles: Vec<[f32; 2]> = city.buildings.iter().map(middle).collect();
+    let quarter = [0, 1].map(|k| {
+        middles.sort_unstable_by(|a, b| a[k].total_cmp(&b[k]));
+        middles.get(middles.len() / 4).map_or(0.0, |at| at[k])
+    });
+    let away = |building: &Building| {
+        let at = middle(building);
+        (at[0] - quarter[0]).hypot(at[1] - quarter[1])
+    };
+    let is_low = |building: &Building| {
+        let tops = building.parts.iter().map(|part| part.range()[1]);
+        tops.fold(0.0, f32::max) - building.ground < LOW
+    };
+    let low = city.buildings.iter().enumerate();
+    let low = low.filter(|(_, building)| is_low(building));
+    let nearest = low.min_by(|a, b| away(a.1).total_cmp(&away(b.1)));
     nearest.map(|(number, _)| number)
 }

@@ -182,6 +182,16 @@ impl Tiles {
         some
     }
 
+    /// The same places under other indices: `names` has one for each index that there was.
+    #[must_use]
+    pub fn renamed(&self, names: &[u32]) -> Self {
+        let named = self.indices.iter().map(|&index| names[index as usize]);
+        Self {
+            indices: named.collect(),
+            ..self.clone()
+        }
+    }
+
     /// All places, in local metres.
     #[must_use]
     pub fn places(&self) -> &[Point3] {

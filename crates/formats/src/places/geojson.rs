@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::{PLACE_COLUMNS, PlaceRow, angles, rounded};
+use super::{CHANGE_COLUMNS, PLACE_COLUMNS, PlaceRow, angles, rounded};
 use crate::error::FormatError;
 use crate::whole::write_whole_with;
 
@@ -45,9 +45,18 @@ fn feature(file: &mut dyn Write, row: &PlaceRow<'_>) -> io::Result<()> {
     let mut properties = row.properties.cloned().unwrap_or_default();
     // As of an earlier run, whose places are measured again.
     properties.retain(|name, _| !PLACE_COLUMNS.contains(&&**name));
+    if row.change.is_some() {
+        properties.retain(|name, _| !CHANGE_COLUMNS.contains(&&**name));
+    }
     let mut put = |name: &str, value: Value| properties.insert(name.to_owned(), value);
     put("minutes", row.minutes.map_or(Value::Null, minutes));
     put("inside", row.inside.into());
+    if let Some(change) = row.change {
+        let all = [change.before, change.after, change.net];
+        for (name, value) in CHANGE_COLUMNS.into_iter().zip(all) {
+            put(name, value.map_or(Value::Null, minutes));
+        }
+    }
     if let Some((number, id)) = row.building {
         put("building", number.into());
         put("building_id", id.into());

@@ -14,6 +14,7 @@
 //! | `azimuth` | degrees or null | which way that looks, clockwise from north; null where it is level |
 //! | `tilt` | degrees or null | 0 faces up, 90 is upright |
 //! | `id` | text or null | the place's own name |
+//! | `before`, `after`, `net` | number or null | only of a city that is changed: minutes before and after, and what is new; `minutes` and `inside` are after |
 //! | `properties` | JSON or null | what else the list of places said of it; in GeoJSON they are properties themselves |
 
 mod geojson;
@@ -43,9 +44,25 @@ pub struct PlaceRow<'a> {
     pub surface: Option<(&'static str, Vector3)>,
     /// The place's own name.
     pub id: Option<&'a str>,
+    /// Of a city that is changed; all rows of a file have it, or none.
+    pub change: Option<PlaceChange>,
     /// What else is known of it.
     pub properties: Option<&'a Map<String, Value>>,
 }
+
+/// Minutes in shadow before and after a change of the city.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlaceChange {
+    /// Before it, if they are known.
+    pub before: Option<f32>,
+    /// After it.
+    pub after: Option<f32>,
+    /// How many there are more; fewer are negative.
+    pub net: Option<f32>,
+}
+
+/// Names that a property cannot have beside a [`PlaceChange`].
+pub const CHANGE_COLUMNS: [&str; 3] = ["before", "after", "net"];
 
 /// Names that a property cannot have in GeoJSON, where it would stand beside what was measured.
 pub const PLACE_COLUMNS: [&str; 7] = [

@@ -31,7 +31,13 @@ const SCHEMA: &str = "message places {
     optional float tilt;
     optional binary id (STRING);
     optional binary properties (JSON);
-}";
+";
+
+/// And of a city that is changed.
+const CHANGE: &str = "    optional float before;
+    optional float after;
+    optional float net;
+";
 
 /// Writes places as GeoParquet 1.1 in OGC:CRS84, packed with Snappy.
 ///
@@ -70,14 +76,17 @@ pub fn write_places_parquet<'a>(
 
 fn encode<'a>(
     file: &mut (dyn Write + Send),
-    mut rows: impl Iterator<Item = PlaceRow<'a>>,
+    rows: impl Iterator<Item = PlaceRow<'a>>,
     metadata: &[(String, String)],
 ) -> Result<(), ParquetError> {
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_created_by(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned())
         .build();
-    let schema = Arc::new(parse_message_type(SCHEMA)?);
+    let mut rows = rows.peekable();
+    let is_change = rows.peek().is_some_and(|row| row.change.is_some());
+    let more = if is_change { CHANGE } else { "" };
+    let schema = Arc::new(parse_message_type(&format!("{SCHEMA}{more}}}"))?);
     let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties))?;
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     loop {
@@ -91,7 +100,7 @@ fn encode<'a>(
                 bounds[1][axis] = bounds[1][axis].max(position[axis]);
             }
         }
-        write_group(writer.next_row_group()?, &group)?;
+        write_group(writer.next_row_group()?, &group, is_change)?;
     }
     for (name, value) in metadata {
         writer.append_key_value_metadata(KeyValue::new(name.clone(), value.clone()));
@@ -114,6 +123,7 @@ fn geo(bounds: [[f64; 3]; 2]) -> Value {
 fn write_group<W: Write + Send>(
     mut group: SerializedRowGroupWriter<'_, W>,
     rows: &[PlaceRow<'_>],
+    is_change: bool,
 ) -> Result<(), ParquetError> {
     let all = |of: &dyn Fn(&PlaceRow<'_>) -> ByteArray| rows.iter().map(of).collect::<Vec<_>>();
     let text = |text: &str| ByteArray::from(text.as_bytes().to_vec());
@@ -137,6 +147,11 @@ fn write_group<W: Write + Send>(
         let properties = row.properties?;
         Some(text(&serde_json::to_string(properties).ok()?))
     })?;
+    if is_change {
+        optional::<FloatType, _>(&mut group, rows, |row| row.change?.before)?;
+        optional::<FloatType, _>(&mut group, rows, |row| row.change?.after)?;
+        optional::<FloatType, _>(&mut group, rows, |row| row.change?.net)?;
+    }
     group.close()?;
     Ok(())
 }

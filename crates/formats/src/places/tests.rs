@@ -177,6 +177,46 @@ fn geoparquet_says_all_of_it() {
 }
 
 #[test]
+fn a_change_has_columns_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let known = json!({"net": "mine", "name": "a"});
+    let change = PlaceChange {
+        before: Some(12.0),
+        after: Some(10.5),
+        net: Some(-1.5),
+    };
+    let rows = [
+        PlaceRow {
+            change: Some(change),
+            properties: known.as_object(),
+            ..PlaceRow::default()
+        },
+        PlaceRow {
+            change: Some(PlaceChange::default()),
+            ..PlaceRow::default()
+        },
+    ];
+    let path = folder.path().join("a.geojson");
+    write_places_geojson(&path, rows, &[]).unwrap();
+    let file: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+    let own = &file["features"][0]["properties"];
+    let expected = json!({"minutes": null, "inside": false, "name": "a",
+        "before": 12.0, "after": 10.5, "net": -1.5});
+    assert_eq!(own, &expected);
+    let path = folder.path().join("a.parquet");
+    write_places_parquet(&path, rows, &[]).unwrap();
+    let reader = SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
+    let nets: Vec<Field> = (reader.get_row_iter(None).unwrap())
+        .map(|row| {
+            let row = row.unwrap();
+            let mut columns = row.get_column_iter();
+            columns.find(|(name, _)| *name == "net").unwrap().1.clone()
+        })
+        .collect();
+    assert_eq!(nets, [Field::Float(-1.5), Field::Null]);
+}
+
+#[test]
 fn many_rows_and_none_are_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");

@@ -27,8 +27,8 @@ mod map;
 
 use ombra_city::{Grid, Origin};
 
-pub use geotiff::write_geotiff;
-pub use map::{MapStyle, map_picture};
+pub use geotiff::{Band, write_geotiff, write_geotiff_bands};
+pub use map::{MapStyle, Scale, map_picture};
 
 use cells::Cells;
 

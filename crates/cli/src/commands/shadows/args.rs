@@ -5,10 +5,12 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use ombra::city::Crs;
+use ombra::formats::city::CityOptions;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
 use super::site::SurroundingsArgs;
+use super::what_if::WhatIfArgs;
 
 /// How many minutes each place of a city lies in shadow: of the ground, on roofs, on facades, or points of yours
 ///
@@ -49,6 +51,9 @@ pub(crate) struct ShadowsArgs {
     #[command(flatten)]
     pub(crate) surroundings: SurroundingsArgs,
 
+    #[command(flatten)]
+    pub(crate) what_if: WhatIfArgs,
+
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
@@ -79,6 +84,17 @@ pub(crate) struct ShadowsArgs {
 }
 
 impl ShadowsArgs {
+    /// How cities are to be read.
+    pub(super) fn city_options(&self) -> CityOptions {
+        let mut options = CityOptions {
+            crs: self.crs.clone(),
+            ..CityOptions::default()
+        };
+        options.heights.attribute.clone_from(&self.height_attribute);
+        options.heights.default = self.default_height;
+        options
+    }
+
     /// Seconds between samples, if there are any.
     pub(crate) fn samples_step(&self) -> Option<f64> {
         (self.method == Method::Sampled).then_some(self.step)
@@ -266,7 +282,7 @@ pub(super) fn cell(text: &str) -> Result<f64, String> {
     }
 }
 
-fn metres(text: &str) -> Result<f64, String> {
+pub(super) fn metres(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('m').trim_end();
     match number.parse::<f64>() {
         Ok(metres) if metres > 0.0 && metres.is_finite() => Ok(metres),

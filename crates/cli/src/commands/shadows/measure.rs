@@ -136,7 +136,7 @@ pub(super) fn measure(
     }
 }
 
-fn in_parts(
+pub(super) fn in_parts(
     args: &ShadowsArgs,
     when: &When,
     tiles: &Tiles,

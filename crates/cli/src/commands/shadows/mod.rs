@@ -10,6 +10,7 @@ mod places;
 mod reach;
 mod rows;
 mod site;
+mod what_if;
 mod when;
 
 use std::io::{self, Write as _};
@@ -44,6 +45,7 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     let is_demo = args.city == DEMO;
     let asks_for_files = args.output.is_some() || args.png.is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
+    let is_tour = is_tour && !args.what_if.is_asked();
     if !is_tour && !args.when.names_days() {
         no_days();
     }
@@ -58,7 +60,9 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
         cpu: Cpu::with_threads(args.threads as usize).context("cannot start the threads")?,
         stop: interrupt::watch(args.quiet)?,
     };
-    if is_tour {
+    if args.what_if.is_asked() {
+        what_if::run(args, &session)
+    } else if is_tour {
         demo::run(args, &session)
     } else {
         one(args, &session)

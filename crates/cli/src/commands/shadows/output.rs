@@ -154,17 +154,19 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
     )
 }
 
+/// How good exact times are, for people.
+pub(super) const EXACT: &str = "exact in time, a day to 1 s and to 0.05 s in the mean";
+
 /// What is known of the times, for people.
 fn bound(args: &ShadowsArgs, when: &When, measured: &Measured) -> String {
     let sun = when.sun();
-    let exact = "exact in time, a day to 1 s and to 0.05 s in the mean";
     match (args.method, measured.some_days) {
         (Method::Fast, Some(some)) if some.days > 0 => format!(
             "{} of {} days stand for all, within {} % of the time that the sun is up (at {} places compared with every \
              day, {:.2} % at most); for a sun that is {sun}",
             some.days, when.days, args.tolerance, some.compared.places, some.compared.most
         ),
-        (Method::Exact | Method::Fast, _) => format!("{exact}, for a sun that is {sun}"),
+        (Method::Exact | Method::Fast, _) => format!("{EXACT}, for a sun that is {sun}"),
         (Method::Sampled, _) => {
             format!("one sample every {} s, for a sun that is {sun}", args.step)
         }
@@ -182,10 +184,10 @@ pub(super) fn write(
     if let Some(path) = &args.output {
         let metadata = metadata(args, when, measured);
         match (OutputKind::of(path), &places.kind) {
-            (OutputKind::GeoJson, _) => with_rows(places, city, &values, |rows| {
+            (OutputKind::GeoJson, _) => with_rows(places, city, &values, None, |rows| {
                 write_places_geojson(path, rows, &metadata)
             })?,
-            (OutputKind::Parquet, _) => with_rows(places, city, &values, |rows| {
+            (OutputKind::Parquet, _) => with_rows(places, city, &values, None, |rows| {
                 write_places_parquet(path, rows, &metadata)
             })?,
             (OutputKind::GeoTiff, Kind::Grid { grid, .. }) => {
@@ -197,12 +199,8 @@ pub(super) fn write(
     }
     if let (Some(path), Kind::Grid { grid, .. }) = (&args.png, &places.kind) {
         let raster = Raster::new(&city.origin, *grid, Unit::Minutes, &values)?;
-        let name = Path::new(&args.city).file_stem().map_or_else(
-            || args.city.clone(),
-            |stem| stem.to_string_lossy().into_owned(),
-        );
         let style = MapStyle {
-            title: format!("Shadow: {name}"),
+            title: format!("Shadow: {}", stem(&args.city)),
             subtitle: format!("{} ({})", when.text, when.zone),
             footer: format!(
                 "ombra {}; {}",
@@ -220,7 +218,7 @@ pub(super) fn write(
             } else {
                 String::new()
             },
-            max: None,
+            ..MapStyle::default()
         };
         let metadata = Metadata {
             version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -229,6 +227,15 @@ pub(super) fn write(
         write_image(path, &map_picture(&raster, &style), &metadata)?;
     }
     Ok(())
+}
+
+/// The name of a city's file.
+pub(super) fn stem(city: &str) -> String {
+    let stem = Path::new(city).file_stem();
+    stem.map_or_else(
+        || city.to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
 }
 
 /// What says how the numbers came about.

@@ -2,24 +2,34 @@
 
 use ombra::accrual::Ground;
 use ombra::city::{City, Crs, Inside};
-use ombra::formats::places::PlaceRow;
+use ombra::formats::places::{PlaceChange, PlaceRow};
 use ombra::geometry::Point3;
 
 use super::bound::Bound;
 use super::places::{Kind, Places};
 
-/// Calls with all rows in turn: `minutes` are one number a place, NaN where there is none.
+/// Calls with all rows in turn: `minutes` are one number a place, NaN where there is none. Of a city that is changed, where they are after
+/// the change, `change` are those before it and how many are new.
 pub(super) fn with_rows<R>(
     places: &Places,
     city: &City,
     minutes: &[f32],
+    change: Option<[&[f32]; 2]>,
     write: impl FnOnce(&mut dyn Iterator<Item = PlaceRow<'_>>) -> R,
 ) -> R {
     let position = |at: Point3| {
         let [longitude, latitude] = city.origin.to_geographic([at.x, at.y].map(f64::from));
         [longitude, latitude, f64::from(at.z)]
     };
-    let known = |index: usize| Some(minutes[index]).filter(|minutes| !minutes.is_nan());
+    let number = |value: f32| Some(value).filter(|value| !value.is_nan());
+    let known = |index: usize| number(minutes[index]);
+    let change = |index: usize| {
+        change.map(|[before, net]| PlaceChange {
+            before: number(before[index]),
+            after: known(index),
+            net: number(net[index]),
+        })
+    };
     let building = |number: u32| (number, city.buildings[number as usize].id.as_deref());
     match &places.kind {
         Kind::Grid { grid, bound } => {
@@ -38,6 +48,7 @@ pub(super) fn with_rows<R>(
                 Some(PlaceRow {
                     position: position(at),
                     minutes: known(index),
+                    change: change(index),
                     inside: owner.is_some(),
                     building: owner.map(building),
                     ..PlaceRow::default()
@@ -53,6 +64,7 @@ pub(super) fn with_rows<R>(
                 .map(|(index, place)| PlaceRow {
                     position: position(place.at),
                     minutes: known(index),
+                    change: change(index),
                     building: Some(building(place.building)),
                     surface: Some((kind.name(), place.normal)),
                     ..PlaceRow::default()
@@ -72,6 +84,7 @@ pub(super) fn with_rows<R>(
                 PlaceRow {
                     position,
                     minutes: known(index),
+                    change: change(index),
                     inside: inside[index].is_some(),
                     building: inside[index].map(building),
                     id: point.id.as_deref(),

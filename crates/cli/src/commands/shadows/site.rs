@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use ombra::city::{City, CityError, Crs, Extent, Origin, demo_city};
+use ombra::city::{City, CityError, Crs, Edited, Edits, Extent, Origin, demo_city};
 use ombra::formats::Limits;
-use ombra::formats::city::{CityModel, CityOptions, Up, read_city, read_city_model};
+use ombra::formats::city::{CityModel, Up, read_city, read_city_model};
 use ombra::formats::elevation::{Elevation, is_elevation, read_elevation};
 
 use super::args::ShadowsArgs;
@@ -78,6 +78,8 @@ pub(super) struct Site<'a> {
     ground: GroundedOn,
     terrain: Option<Elevation>,
     models: Vec<(&'a Path, CityModel)>,
+    /// What else the city might be.
+    edited: Option<Edited>,
 }
 
 enum GroundedOn {
@@ -101,13 +103,7 @@ impl<'a> Site<'a> {
         } else if is_elevation(city)? {
             GroundedOn::Surface(read_elevation(city, args.crs.as_ref(), &limits)?)
         } else {
-            let mut options = CityOptions {
-                crs: args.crs.clone(),
-                ..CityOptions::default()
-            };
-            options.heights.attribute.clone_from(&args.height_attribute);
-            options.heights.default = args.default_height;
-            GroundedOn::City(Box::new(read_city(city, &options)?))
+            GroundedOn::City(Box::new(read_city(city, &args.city_options())?))
         };
         let origin = match &ground {
             GroundedOn::City(found) => found.origin.clone(),
@@ -123,6 +119,7 @@ impl<'a> Site<'a> {
             args,
             origin,
             ground,
+            edited: None,
             terrain: terrain
                 .map(|path| read_elevation(path, around.terrain_crs.as_ref(), &limits))
                 .transpose()?,
@@ -134,17 +131,47 @@ impl<'a> Site<'a> {
         &self.origin
     }
 
+    /// What if: the city is there twice from now on. A surface model has no buildings to be changed.
+    pub(super) fn edit(&mut self, edits: &Edits) -> anyhow::Result<()> {
+        if let GroundedOn::City(city) = &self.ground {
+            let edited = city.edited(edits);
+            self.edited = Some(edited.map_err(|error| anyhow!("{}: {error}", self.args.city))?);
+        }
+        Ok(())
+    }
+
     /// Around all of it; terrain and models that were added do not count.
     pub(super) fn extent(&self) -> Extent {
-        match &self.ground {
+        let own = match &self.ground {
             GroundedOn::City(city) => extent(&city.facets()),
             GroundedOn::Surface(surface) => surface.field.extent(&self.origin),
+        };
+        match &self.edited {
+            Some(edited) => {
+                let Extent { low, high } = extent(&edited.city.facets());
+                // Where nothing is left there is none.
+                [low, high]
+                    .into_iter()
+                    .filter(|at| at.iter().all(|x| x.is_finite()))
+                    .fold(own, Extent::with)
+            }
+            None => own,
         }
     }
 
     /// The city with all that is around the places, as far as shadows reach while the sun stands at
     /// least so high, in radians; and how far that is, in metres.
     pub(super) fn city(self, places: Extent, altitude: f64) -> anyhow::Result<(City, f64)> {
+        let (city, _, reach) = self.cities(places, altitude)?;
+        Ok((city, reach))
+    }
+
+    /// The same, and what else it might be on the same ground.
+    pub(super) fn cities(
+        self,
+        places: Extent,
+        altitude: f64,
+    ) -> anyhow::Result<(City, Option<Edited>, f64)> {
         let reach = self.rise() / altitude.max(0.0).tan();
         let extent = places.widened(reach);
         let (name, terrain) = (&self.args.city, self.terrain);
@@ -156,10 +183,14 @@ impl<'a> Site<'a> {
             .unwrap_or(Path::new(""));
         let of_terrain = |error: &CityError| of_file(&terrain_name.display().to_string(), error);
         let mut findings = Vec::new();
+        let mut edited = self.edited;
         let mut city = match self.ground {
             GroundedOn::City(mut city) => {
                 if let Some(terrain) = terrain {
-                    (city.stand_on(&terrain.field, extent)).map_err(|error| of_terrain(&error))?;
+                    let others = edited.as_mut().map(|edited| &mut edited.city);
+                    for city in [&mut *city].into_iter().chain(others) {
+                        (city.stand_on(&terrain.field, extent)).map_err(|e| of_terrain(&e))?;
+                    }
                     findings = terrain.findings;
                 }
                 *city
@@ -178,8 +209,11 @@ impl<'a> Site<'a> {
             let at = origins.get(index).or(origins.first());
             let at = at.expect("clap asks for an origin with a model");
             let file = path.display().to_string();
-            (city.add_model(model.triangles, at.map, at.base))
-                .map_err(|error| of_file(&file, &error))?;
+            let others = edited.as_mut().map(|edited| &mut edited.city);
+            for city in [&mut city].into_iter().chain(others) {
+                (city.add_model(model.triangles.iter().copied(), at.map, at.base))
+                    .map_err(|error| of_file(&file, &error))?;
+            }
             city.findings
                 .extend(model.findings.iter().map(|finding| ombra::city::Finding {
                     place: file.clone(),
@@ -187,7 +221,7 @@ impl<'a> Site<'a> {
                     count: 1,
                 }));
         }
-        Ok((city, reach))
+        Ok((city, edited, reach))
     }
 
     /// From the lowest place to the highest top, metres, models left out.
@@ -199,7 +233,8 @@ impl<'a> Site<'a> {
         match &self.ground {
             GroundedOn::Surface(surface) => of_field(surface),
             GroundedOn::City(city) => {
-                let tops = (city.buildings.iter())
+                let added = self.edited.iter().flat_map(|edited| &edited.city.buildings);
+                let tops = (city.buildings.iter().chain(added))
                     .flat_map(|b| b.parts.iter().map(|part| part.range()[1] - b.ground));
                 let tallest = f64::from(tops.fold(0.0, f32::max));
                 tallest + self.terrain.as_ref().map_or(0.0, of_field)

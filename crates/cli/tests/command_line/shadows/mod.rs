@@ -4,6 +4,7 @@ use serde_json::Value;
 
 mod places;
 mod resumed;
+mod what_if;
 
 use crate::{fail, outside_data, succeed};
 

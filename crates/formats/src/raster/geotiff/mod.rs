@@ -4,7 +4,7 @@
 //! `geotiff-writer`, which writes both, has no place for the metadata that reruns a job. There is one
 //! kind of file to write:
 //!
-//! - one band of 32-bit floating-point numbers, NaN for no data, in tiles of 256 × 256, packed with
+//! - one or several bands of 32-bit floating-point numbers, pixel by pixel, NaN for no data, in tiles of 256 × 256, packed with
 //!   Deflate after the floating-point predictor;
 //! - overviews of half, a quarter, … the size until one tile holds all;
 //! - all directories first, then the tiles, smallest overview first, so that a viewer at the other end
@@ -53,8 +53,33 @@ pub fn write_geotiff(
     raster: &Raster<'_>,
     metadata: &[(String, String)],
 ) -> Result<(), FormatError> {
+    let band = Band {
+        name: "time in shadow",
+        raster: *raster,
+    };
+    write_geotiff_bands(path, &[band], metadata)
+}
+
+/// A raster among several over the same grid.
+#[derive(Clone, Copy, Debug)]
+pub struct Band<'a> {
+    /// What GIS programs call it.
+    pub name: &'a str,
+    /// Its numbers.
+    pub raster: Raster<'a>,
+}
+
+/// The same with several bands, one at least, all over the grid of the first.
+///
+/// # Errors
+/// As those of [`write_geotiff`]; and when there is no band, or one has another grid.
+pub fn write_geotiff_bands(
+    path: impl AsRef<Path>,
+    bands: &[Band<'_>],
+    metadata: &[(String, String)],
+) -> Result<(), FormatError> {
     let path = path.as_ref();
-    let content = encoded(raster, metadata).map_err(|e| e.in_file(path))?;
+    let content = encoded(bands, metadata).map_err(|e| e.in_file(path))?;
     write_whole(path, &content)
 }
 
@@ -65,16 +90,23 @@ struct Level {
     tiles: Vec<Vec<u8>>,
 }
 
-fn encoded(raster: &Raster<'_>, metadata: &[(String, String)]) -> Result<Vec<u8>, FormatError> {
-    let levels = levels(raster)?;
+fn encoded(bands: &[Band<'_>], metadata: &[(String, String)]) -> Result<Vec<u8>, FormatError> {
+    let grid = bands.first().map(|band| band.raster.grid());
+    let is_one_grid = bands.iter().all(|band| Some(band.raster.grid()) == grid);
+    if bands.is_empty() || !is_one_grid {
+        let message = "needs one band at least, and all over the same grid".to_owned();
+        let format = "GeoTIFF";
+        return Err(FormatError::file(Fault::Image { format, message }));
+    }
+    let levels = levels(bands)?;
 
     // The directories name the places of the tiles, which come after them: measured first.
     let nowhere = levels.iter().map(|l| vec![0; l.tiles.len()]).collect();
-    let directories = directories(raster, metadata, &levels, nowhere);
+    let directories = directories(bands, metadata, &levels, nowhere);
     let front = (HEADER + GHOST.len()).next_multiple_of(2);
     let front = front + directories.iter().map(Directory::len).sum::<usize>();
     let places = places(&levels, front)?;
-    let directories = self::directories(raster, metadata, &levels, places);
+    let directories = self::directories(bands, metadata, &levels, places);
 
     let mut file = Vec::new();
     file.extend_from_slice(b"II\x2a\0");
@@ -96,20 +128,21 @@ fn encoded(raster: &Raster<'_>, metadata: &[(String, String)]) -> Result<Vec<u8>
 }
 
 /// The raster itself and its overviews, from the largest to the smallest.
-fn levels(raster: &Raster<'_>) -> Result<Vec<Level>, FormatError> {
-    let cells = raster.cells();
-    let packed = |cells: &Cells<'_>| {
+fn levels(bands: &[Band<'_>]) -> Result<Vec<Level>, FormatError> {
+    let all: Vec<Cells<'_>> = bands.iter().map(|band| band.raster.cells()).collect();
+    let packed = |cells: &[Cells<'_>]| {
         Ok(Level {
-            width: cells.width as u32,
-            height: cells.height as u32,
+            width: cells[0].width as u32,
+            height: cells[0].height as u32,
             tiles: tile::packed_tiles(cells).map_err(write_error)?,
         })
     };
-    let mut levels = vec![packed(&cells)?];
+    let mut levels = vec![packed(&all)?];
     let mut factor = 1;
-    while cells.width.max(cells.height).div_ceil(factor) > tile::SIDE {
+    while all[0].width.max(all[0].height).div_ceil(factor) > tile::SIDE {
         factor *= 2;
-        levels.push(packed(&cells.means(factor, Blank::IfAllAre))?);
+        let means = all.iter().map(|cells| cells.means(factor, Blank::IfAllAre));
+        levels.push(packed(&means.collect::<Vec<_>>())?);
     }
     Ok(levels)
 }
@@ -138,7 +171,7 @@ fn places(levels: &[Level], front: usize) -> Result<Vec<Vec<u32>>, FormatError> 
 }
 
 fn directories(
-    raster: &Raster<'_>,
+    bands: &[Band<'_>],
     metadata: &[(String, String)],
     levels: &[Level],
     places: Vec<Vec<u32>>,
@@ -146,10 +179,10 @@ fn directories(
     let with_places = levels.iter().zip(places).enumerate();
     with_places
         .map(|(i, (level, places))| {
-            let mut directory = image_directory(level, places, i > 0);
+            let mut directory = image_directory(level, places, i > 0, bands.len());
             if i == 0 {
-                geo_keys::add_to(&mut directory, raster);
-                let xml = metadata::to_xml(raster.unit(), metadata);
+                geo_keys::add_to(&mut directory, &bands[0].raster);
+                let xml = metadata::to_xml(bands, metadata);
                 directory.add(42112, Value::Ascii(xml));
             }
             directory
@@ -158,7 +191,7 @@ fn directories(
 }
 
 /// How a level's numbers are stored.
-fn image_directory(level: &Level, places: Vec<u32>, is_overview: bool) -> Directory {
+fn image_directory(level: &Level, places: Vec<u32>, is_overview: bool, bands: usize) -> Directory {
     let lengths = level.tiles.iter().map(|t| t.len() as u32).collect();
     let side = tile::SIDE as u16;
     let mut directory = Directory::default();
@@ -166,20 +199,24 @@ fn image_directory(level: &Level, places: Vec<u32>, is_overview: bool) -> Direct
         (254, Value::Longs(vec![u32::from(is_overview)])),
         (256, Value::Longs(vec![level.width])),
         (257, Value::Longs(vec![level.height])),
-        (258, Value::Shorts(vec![32])), // bits a sample
-        (259, Value::Shorts(vec![8])),  // Deflate
-        (262, Value::Shorts(vec![1])),  // more is brighter
-        (277, Value::Shorts(vec![1])),  // samples a pixel
-        (284, Value::Shorts(vec![1])),  // chunky
-        (317, Value::Shorts(vec![3])),  // floating-point predictor
+        (258, Value::Shorts(vec![32; bands])), // bits a sample
+        (259, Value::Shorts(vec![8])),         // Deflate
+        (262, Value::Shorts(vec![1])),         // more is brighter
+        (277, Value::Shorts(vec![bands as u16])), // samples a pixel
+        (284, Value::Shorts(vec![1])),         // chunky
+        (317, Value::Shorts(vec![3])),         // floating-point predictor
         (322, Value::Shorts(vec![side])),
         (323, Value::Shorts(vec![side])),
         (324, Value::Longs(places)),
         (325, Value::Longs(lengths)),
-        (339, Value::Shorts(vec![3])), // floating-point numbers
+        (339, Value::Shorts(vec![3; bands])), // floating-point numbers
         (42113, Value::Ascii("nan".to_owned())), // GDAL_NODATA
     ] {
         directory.add(tag, value);
+    }
+    if bands > 1 {
+        // What comes behind the first sample is no colour.
+        directory.add(338, Value::Shorts(vec![0; bands - 1]));
     }
     directory
 }

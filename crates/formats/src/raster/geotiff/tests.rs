@@ -41,7 +41,8 @@ fn minutes(grid: Grid) -> Vec<f32> {
 fn written(grid: Grid, values: &[f32], metadata: &[(String, String)]) -> Vec<u8> {
     let origin = origin();
     let raster = Raster::new(&origin, grid, Unit::Minutes, values).unwrap();
-    encoded(&raster, metadata).unwrap()
+    let name = "time in shadow";
+    encoded(&[Band { name, raster }], metadata).unwrap()
 }
 
 fn decoder(file: &[u8]) -> Decoder<Cursor<&[u8]>> {
@@ -235,4 +236,38 @@ fn a_folder_that_is_missing_is_told() {
     let path = folder.path().join("a.tif");
     write_geotiff(&path, &raster, &[]).unwrap();
     assert_eq!(image(&mut decoder(&std::fs::read(&path).unwrap())), [1.0]);
+}
+
+#[test]
+fn several_bands_come_back_pixel_by_pixel_and_have_names() {
+    for (width, height) in [(40, 30), (300, 270)] {
+        let (grid, origin) = (grid(width, height), origin());
+        let before = minutes(grid);
+        let after: Vec<f32> = before.iter().map(|x| 1.5 * x).collect();
+        let net: Vec<f32> = before.iter().map(|x| 2.0 - 0.25 * x).collect();
+        let all = [("before", &before), ("after", &after), ("net", &net)];
+        let bands = all.map(|(name, values)| Band {
+            name,
+            raster: Raster::new(&origin, grid, Unit::Minutes, values).unwrap(),
+        });
+        let file = encoded(&bands, &[]).unwrap();
+        let mut decoder = decoder(&file);
+        let found = image(&mut decoder);
+        for (band, (_, values)) in all.iter().enumerate() {
+            let own: Vec<f32> = found.iter().skip(band).step_by(3).copied().collect();
+            assert_same(&own, values);
+        }
+        let xml = decoder.get_tag_ascii_string(METADATA).unwrap();
+        let last = "<Item name=\"DESCRIPTION\" sample=\"2\" role=\"description\">net</Item>";
+        assert!(xml.contains(last), "{xml}");
+    }
+    let (one, other) = (grid(2, 1), grid(1, 2));
+    let origin = origin();
+    let bands = [one, other].map(|grid| Band {
+        name: "a",
+        raster: Raster::new(&origin, grid, Unit::Minutes, &[1.0, 2.0]).unwrap(),
+    });
+    let told = encoded(&bands, &[]).unwrap_err().to_string();
+    assert!(told.contains("the same grid"), "{told}");
+    assert!(encoded(&[], &[]).is_err());
 }

@@ -1,7 +1,7 @@
 //! The map itself: cells as pixels, buildings with an outline.
 
 use super::canvas::{Canvas, Colour};
-use super::{INK, LEAST, MOST, ramp};
+use super::{INK, LEAST, MOST, Scale, ramp};
 use crate::raster::Raster;
 use crate::raster::cells::{Blank, Cells};
 
@@ -58,14 +58,14 @@ impl<'a> Ground<'a> {
         self.cells.values.iter().any(|v| v.is_nan())
     }
 
-    /// Draws it with its upper left corner at `left`, `top`. `darkest` is how many minutes the dark
+    /// Draws it with its upper left corner at `at`. `darkest` is how many minutes the dark
     /// end of the ramp stands for.
-    pub(super) fn draw(&self, canvas: &mut Canvas, left: u32, top: u32, darkest: f32) {
-        let [left, top] = [left, top].map(i64::from);
+    pub(super) fn draw(&self, canvas: &mut Canvas, at: [u32; 2], darkest: f32, scale: Scale) {
+        let [left, top] = at.map(i64::from);
         // A table: curves and powers for each cell would take longer than all the rest.
         const SHADES: usize = 1024;
         let ramp: Vec<Colour> = (0..=SHADES)
-            .map(|i| ramp::colour(i as f32 / SHADES as f32))
+            .map(|i| ramp::of(scale, i as f32 / SHADES as f32))
             .collect();
         for (row, values) in self.cells.values.chunks_exact(self.cells.width).enumerate() {
             let y = top + row as i64 * i64::from(self.zoom);
@@ -74,7 +74,7 @@ impl<'a> Ground<'a> {
                 let colour = if value.is_nan() {
                     BUILDING
                 } else {
-                    let fraction = (value * self.minutes / darkest).clamp(0.0, 1.0);
+                    let fraction = ramp::along(scale, value * self.minutes / darkest);
                     ramp[(fraction * SHADES as f32).round() as usize]
                 };
                 canvas.rectangle(x, y, self.zoom, self.zoom, colour);

@@ -3,7 +3,7 @@
 use super::canvas::Canvas;
 use super::ground::{BUILDING, OUTLINE};
 use super::text::Face;
-use super::{INK, MapStyle, ramp, round};
+use super::{INK, MapStyle, Scale, ramp, round};
 use crate::raster::{Raster, Unit};
 
 /// Pixels that it is tall, at scale 1.
@@ -15,6 +15,7 @@ const BAR_TOP: u32 = 26;
 /// The values at which the legend has ticks, and what its end stands for.
 pub(super) struct Legend {
     unit: Unit,
+    scale: Scale,
     /// The value of the dark end, in `unit`; more than 0.
     max: f64,
     ticks: Vec<(f64, String)>,
@@ -25,10 +26,39 @@ impl Legend {
         let unit = style.unit;
         let per_unit = f64::from(raster.unit().minutes()) / f64::from(unit.minutes());
         let values = raster.values().iter().filter(|v| !v.is_nan());
-        let largest = f64::from(values.copied().fold(0.0, f32::max)) * per_unit;
-        match style.max.filter(|m| *m > 0.0 && m.is_finite()) {
+        let size = |value: &f32| match style.scale {
+            Scale::Shadow => *value,
+            Scale::Change => value.abs(),
+        };
+        let largest = f64::from(values.map(size).fold(0.0, f32::max)) * per_unit;
+        let legend = match style.max.filter(|m| *m > 0.0 && m.is_finite()) {
             Some(max) => Self::up_to(unit, f64::from(max), largest),
             None => Self::of_all(unit, largest),
+        };
+        match style.scale {
+            Scale::Shadow => legend,
+            Scale::Change => legend.both_ways(),
+        }
+    }
+
+    /// From as much less to as much more: half as many ticks a side.
+    fn both_ways(self) -> Self {
+        let last = self.ticks.len() - 1;
+        let is_shown = |k: usize| k == 0 || k == last || (last % 2 == 0 && 2 * k == last);
+        let shown = (self.ticks.into_iter().enumerate()).filter(|(k, _)| is_shown(*k));
+        let mut ticks = Vec::new();
+        for (_, (value, text)) in shown {
+            if value > 0.0 {
+                ticks.push((-value, format!("−{text}")));
+                ticks.push((value, format!("+{text}")));
+            } else {
+                ticks.push((value, text));
+            }
+        }
+        Self {
+            scale: Scale::Change,
+            ticks,
+            ..self
         }
     }
 
@@ -49,7 +79,13 @@ impl Legend {
         let mut fitting = with_ends.filter(|&(step, max)| fits(step, max));
         let (step, max) = fitting.next().unwrap_or((largest, largest));
         let ticks = ticks(step, max);
-        Self { unit, max, ticks }
+        let scale = Scale::Shadow;
+        Self {
+            unit,
+            scale,
+            max,
+            ticks,
+        }
     }
 
     /// A legend that ends where it is told to, with a plus if there is more.
@@ -66,7 +102,13 @@ impl Legend {
         let is_multiple = (max / step).fract().abs() < 1e-6;
         let own_step = if is_multiple { step } else { step / 10.0 };
         ticks.push((max, format!("{}{more}", round::text(max, own_step))));
-        Self { unit, max, ticks }
+        let scale = Scale::Shadow;
+        Self {
+            unit,
+            scale,
+            max,
+            ticks,
+        }
     }
 
     /// Draws it with its upper left corner at `x`, `y`; `blank` names what has no value.
@@ -79,19 +121,24 @@ impl Legend {
         blank: Option<&str>,
     ) {
         let (body, small) = (Face::body(scale), Face::small(scale));
-        let caption = format!("Time in shadow ({})", self.unit.name());
+        let what = match self.scale {
+            Scale::Shadow => "Time in shadow",
+            Scale::Change => "Net new shadow",
+        };
+        let caption = format!("{what} ({})", self.unit.name());
         body.draw(canvas, x, y, &caption, INK);
 
         let [width, height, top] = [BAR_WIDTH, BAR_HEIGHT, BAR_TOP].map(|v| v * scale);
         let bar = [x + i64::from(scale), y + i64::from(top)];
         for column in 0..width {
-            let colour = ramp::colour(column as f32 / (width - 1) as f32);
+            let colour = ramp::of(self.scale, column as f32 / (width - 1) as f32);
             canvas.rectangle(bar[0] + i64::from(column), bar[1], 1, height, colour);
         }
         canvas.frame(bar, [width, height], scale, INK);
         let below = bar[1] + i64::from(height);
         for (value, text) in &self.ticks {
-            let along = (value / self.max * f64::from(width - scale)).round() as i64;
+            let share = f64::from(ramp::along(self.scale, (value / self.max) as f32));
+            let along = (share * f64::from(width - scale)).round() as i64;
             canvas.rectangle(bar[0] + along, below, scale, 5 * scale, INK);
             // The first label begins where the bar does, so that nothing sticks out.
             let middle = bar[0] + along;

@@ -32,6 +32,16 @@ const MOST: u32 = 2240;
 /// Pixels between the edge of the picture and what it shows.
 const MARGIN: u32 = 40;
 
+/// What the colours of a map tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// From sun, light, to long shadow, dark.
+    #[default]
+    Shadow,
+    /// From shadow that is lost, orange, over none, white, to shadow that is new, blue.
+    Change,
+}
+
 /// What a picture of a map says beside the map. Characters that its font lacks (it has those of
 /// Europe's Latin alphabets) show as a replacement sign, and what is too long is wrapped, then cut.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,6 +59,8 @@ pub struct MapStyle {
     /// What the dark end of the legend stands for, in `unit`; more is as dark. `None`, or what is not
     /// more than 0: the largest value, rounded up. Set it where pictures are to be compared.
     pub max: Option<f32>,
+    /// What the colours tell.
+    pub scale: Scale,
 }
 
 /// Draws a raster: light where there is sun, dark where shadow is long, buildings in grey. North is
@@ -99,7 +111,7 @@ pub fn map_picture(raster: &Raster<'_>, style: &MapStyle) -> ImageBuffer {
         top += lead;
     }
     let map_left = margin + (content - ground.width()) / 2;
-    ground.draw(&mut canvas, map_left, map_top, legend.top());
+    ground.draw(&mut canvas, [map_left, map_top], legend.top(), style.scale);
 
     let [left, right] = [margin, margin + content].map(i64::from);
     let y = i64::from(legend_top);

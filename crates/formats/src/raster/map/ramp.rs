@@ -6,6 +6,7 @@
 //! colour-blind and on a grey print; the hues run from yellow to blue, which all common kinds of
 //! colour blindness tell apart.
 
+use super::Scale;
 use super::canvas::Colour;
 
 /// Corners of a cubic Bézier curve in Oklab: lightness, green to red, blue to yellow. Lightness is in
@@ -20,6 +21,35 @@ const CURVE: [[f32; 3]; 4] = [
 /// The colour of a fraction of the longest shadow, clipped to 0 to 1.
 pub(super) fn colour(fraction: f32) -> Colour {
     to_srgb(oklab(fraction.clamp(0.0, 1.0)))
+}
+
+/// Shadow that is lost, none, and shadow that is new, in Oklab. Orange and blue are told apart by the colour-blind, too.
+const CHANGE: [[f32; 3]; 3] = [[0.66, 0.10, 0.12], [1.0, 0.0, 0.0], [0.38, 0.0, -0.16]];
+
+/// How far along the ramp of a scale a fraction of its largest value lies, from 0 to 1.
+pub(super) fn along(scale: Scale, fraction: f32) -> f32 {
+    match scale {
+        Scale::Shadow => fraction.clamp(0.0, 1.0),
+        Scale::Change => 0.5 + 0.5 * fraction.clamp(-1.0, 1.0),
+    }
+}
+
+/// The colour so far along the ramp of a scale.
+pub(super) fn of(scale: Scale, along: f32) -> Colour {
+    match scale {
+        Scale::Shadow => colour(along),
+        Scale::Change => {
+            let [lost, none, new] = CHANGE;
+            let fraction = 2.0 * along - 1.0;
+            let end = if fraction < 0.0 { lost } else { new };
+            let size = match fraction.abs().min(1.0) {
+                0.0 => 0.0,
+                // So much at least that the least change is seen.
+                size => 0.12 + 0.88 * size,
+            };
+            to_srgb([0, 1, 2].map(|k| none[k] + size * (end[k] - none[k])))
+        }
+    }
 }
 
 fn oklab(t: f32) -> [f32; 3] {
@@ -77,6 +107,20 @@ mod tests {
         for i in 0..=256 {
             let rgb = linear(oklab(i as f32 / 256.0));
             assert!(rgb.iter().all(|x| (-1e-4..=1.0001).contains(x)), "{rgb:?}");
+        }
+    }
+
+    #[test]
+    fn change_is_white_where_there_is_none_and_has_a_hue_a_way() {
+        let at = |fraction| of(Scale::Change, along(Scale::Change, fraction));
+        assert_eq!(at(0.0), [255; 3]);
+        for size in [0.01, 0.3, 1.0, 5.0] {
+            let ([r, _, b], [u, _, w]) = (at(size), at(-size));
+            assert!(b > r && u > w, "{size}");
+        }
+        for end in CHANGE {
+            let rgb = linear(end);
+            assert!(rgb.iter().all(|x| (-1e-3..=1.001).contains(x)), "{rgb:?}");
         }
     }
 
