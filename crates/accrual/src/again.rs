@@ -7,12 +7,13 @@
 
 use std::ops::Range;
 
+use arrayvec::ArrayVec;
 use ombra_city::Change;
 use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
-use crate::exact::Exact;
+use crate::exact::{Exact, TILES};
 use crate::kernel::{Room, may_cover};
 use crate::occluder::Occluders;
 use crate::tile::{Tile, is_somewhere};
@@ -20,9 +21,6 @@ use crate::tiles::Tiles;
 
 /// Tiles that are looked at as one box first: those of a square of the ground.
 const BLOCK: usize = 64;
-
-/// And as one box next.
-const PART: usize = 4;
 
 /// The places that are measured again after a change of the city.
 #[derive(Clone, Debug)]
@@ -131,10 +129,14 @@ impl Look<'_> {
         if !self.may_shade(around, room) {
             return found;
         }
-        for first in block.clone().step_by(PART) {
-            let part = first..block.end.min(first + PART);
+        for first in block.clone().step_by(TILES) {
+            let part = first..block.end.min(first + TILES);
             if self.may_shade(self.around(part.clone()), room) {
-                found.extend(part.filter(|&tile| self.is_changed(tile, room)));
+                let lists = self.tiles.lists(part.clone());
+                let tiles: ArrayVec<Tile, TILES> =
+                    lists.iter().map(|list| Tile::new(list)).collect();
+                let changed = self.exact.changes(&tiles, room);
+                found.extend(part.filter(|tile| changed >> (tile - first) & 1 == 1));
             }
         }
         found
@@ -157,11 +159,6 @@ impl Look<'_> {
         let level = self.exact.level();
         let mut all = self.exact.ways().iter();
         all.any(|ways| may_cover(level, self.changed, ways, around, room))
-    }
-
-    fn is_changed(&self, tile: usize, room: &mut Room) -> bool {
-        let places = &self.tiles.places()[self.tiles.range(tile..tile + 1)];
-        self.exact.changes(Tile::new(places), room)
     }
 }
 

@@ -81,17 +81,22 @@ impl<'a> Exact<'a> {
         &self.ways
     }
 
-    /// Whether the polygons that it has besides make a difference to any place of a tile.
-    pub(crate) fn changes(&self, tile: Tile, room: &mut Room) -> bool {
-        (self.ways.iter()).any(|ways| {
-            let job = Job {
-                occluders: self.occluders,
-                more: self.more,
-                ways,
-                tiles: &[tile],
-            };
-            changes(self.level, job, room)
-        })
+    /// For which tiles, by bits, the polygons that it has besides make a difference. There are [`TILES`] at most.
+    pub(crate) fn changes(&self, tiles: &[Tile], room: &mut Room) -> u32 {
+        let mut found = 0;
+        for ways in &self.ways {
+            let together = TOGETHER / ways.list().len();
+            for (part, tiles) in tiles.chunks(together).enumerate() {
+                let job = Job {
+                    occluders: self.occluders,
+                    more: self.more,
+                    ways,
+                    tiles,
+                };
+                found |= changes(self.level, job, room) << (part * together);
+            }
+        }
+        found
     }
 
     pub(crate) const fn level(&self) -> Level {

@@ -63,7 +63,7 @@ mod x86 {
     /// # Safety
     /// - The processor has AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn changes(job: Job<'_>, room: &mut Room) -> bool {
+    pub(super) unsafe fn changes(job: Job<'_>, room: &mut Room) -> u32 {
         // SAFETY: the caller's promise.
         unsafe { differs::<Avx2, Pair<Avx2>>(job, &mut room.covers, &mut room.waiting) }
     }
@@ -113,8 +113,8 @@ pub(crate) fn may_cover(
     }
 }
 
-/// Whether `more` of a job covers anything that its occluders do not cover anyway, seen from any place of its tile, of which there is one.
-pub(crate) fn changes(level: Level, job: Job<'_>, room: &mut Room) -> bool {
+/// For which tiles of a job, by bits, `more` covers anything that its occluders do not cover anyway.
+pub(crate) fn changes(level: Level, job: Job<'_>, room: &mut Room) -> u32 {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.

@@ -49,7 +49,7 @@ impl Legend {
         let mut ticks = Vec::new();
         for (_, (value, text)) in shown {
             if value > 0.0 {
-                ticks.push((-value, format!("−{text}")));
+                ticks.push((-value, format!("-{text}")));
                 ticks.push((value, format!("+{text}")));
             } else {
                 ticks.push((value, text));

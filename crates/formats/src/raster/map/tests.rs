@@ -50,6 +50,29 @@ fn blocks(width: u32, height: u32, cell: f64) -> Vec<f32> {
     (0..width * height).map(at).map(value).collect()
 }
 
+/// What is new is blue, what is lost orange, and what stays is white.
+#[test]
+fn a_change_has_two_hues_and_a_legend_of_both_ways() {
+    let origin = Origin::new(Crs::wgs84(), [4.36, 52.01]).unwrap();
+    let grid = Grid {
+        corner: [0.0, 0.0],
+        cell: 1.0,
+        width: 3,
+        height: 1,
+    };
+    let raster = Raster::new(&origin, grid, Unit::Minutes, &[-60.0, 0.0, 60.0]).unwrap();
+    let change = MapStyle {
+        scale: Scale::Change,
+        ..MapStyle::default()
+    };
+    assert_ne!(
+        map_picture(&raster, &change),
+        map_picture(&raster, &MapStyle::default())
+    );
+    let [lost, none, new] = [0.0, 0.5, 1.0].map(|along| ramp::of(Scale::Change, along));
+    assert!(lost[0] > lost[2] && none == [255; 3] && new[2] > new[0]);
+}
+
 fn style() -> MapStyle {
     MapStyle {
         title: "Shadow in winter".to_owned(),
@@ -59,6 +82,7 @@ fn style() -> MapStyle {
             .to_owned(),
         unit: Unit::Minutes,
         max: None,
+        scale: Scale::Shadow,
         blank: String::new(),
     }
 }
