@@ -140,6 +140,7 @@ fn any_raster_and_any_style_make_a_picture() {
         unit: Unit::Hours,
         blank: "No ground".to_owned(),
         max: Some(f32::NAN),
+        scale: Scale::Shadow,
     };
     for value in [f32::NAN, 0.0, -5.0, f32::MIN_POSITIVE, f32::MAX] {
         for cell in [1e-9, 0.5, 1e12] {
