@@ -143,10 +143,10 @@ impl Cover {
     /// What is added for an arc of length 1, by place: of its beginning and end, and of its pieces.
     pub(crate) fn shares(&self, arc: usize) -> [[f64; PLACES]; 2] {
         let mut shares = [[1.0; PLACES], [0.0; PLACES]];
-        for place in 0..PLACES {
+        for (place, share) in shares[0].iter_mut().enumerate() {
             let (before, after) = (self.before[arc][place], self.after[arc][place]);
             if before + JOIN < after {
-                shares[0][place] = 1.0 - (f64::from(after) - f64::from(before));
+                *share = 1.0 - (f64::from(after) - f64::from(before));
             }
         }
         self.add_pieces(arc, 1.0, &mut shares[1]);

@@ -75,7 +75,7 @@ pub(super) unsafe fn differs<N: Lanes, P: Lanes>(
 fn ask(cover: &mut Cover, arcs: usize) -> u64 {
     let mut asked = 0;
     let mut places = [[1.0_f32; PLACES]; crate::way::MOST];
-    for arc in 0..arcs {
+    for (arc, places) in places.iter_mut().enumerate().take(arcs) {
         let [ends, pieces] = cover.shares(arc);
         for place in 0..PLACES {
             // Even a share too small to be counted.
@@ -84,7 +84,7 @@ fn ask(cover: &mut Cover, arcs: usize) -> u64 {
                 || cover.before[arc][place] > 0.0
                 || cover.after[arc][place] < 1.0;
             if is_touched {
-                places[arc][place] = 0.0;
+                places[place] = 0.0;
                 asked |= 1 << arc;
             }
         }
