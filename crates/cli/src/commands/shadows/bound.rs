@@ -28,6 +28,9 @@ impl Bound {
         if let Some(area) = args.area {
             return Ok(Self::Box(area_box(area, origin)));
         }
+        if let Some(margin) = args.margin {
+            return Ok(Self::Box(all.widened(margin)));
+        }
         let Some(path) = &args.study else {
             return Ok(Self::Nothing);
         };

@@ -92,7 +92,7 @@ pub(super) fn measure(
         Method::Fast => {
             let occluders = cpu.install(|| Occluders::new(facets));
             let is_wanted = || !stop.load(Ordering::Relaxed);
-            let tolerance = args.tolerance / 100.0;
+            let tolerance = args.tolerance() / 100.0;
             let days = cpu.install(|| when.sheets());
             let fast = cpu.install(|| Fast::new(&occluders, &days, tiles, tolerance, is_wanted));
             let built = begun.elapsed().as_secs_f64();
@@ -112,7 +112,12 @@ pub(super) fn measure(
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
-            let samples = cpu.install(|| when.samples(args.step));
+            let samples = cpu.install(|| {
+                when.samples(
+                    args.samples_step()
+                        .expect("there is a step where there are samples"),
+                )
+            });
             let part = |which| {
                 let places = &tiles.places()[tiles.range(which)];
                 cpu.install(|| {

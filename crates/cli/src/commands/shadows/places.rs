@@ -32,6 +32,10 @@ pub(crate) struct PlacesArgs {
     #[arg(long, value_name = "W,S,E,N", value_parser = area, allow_hyphen_values = true, conflicts_with_all = ["study", "points"])]
     pub(crate) area: Option<[f64; 4]>,
 
+    /// How far the map of the ground goes beyond what the file holds, in metres: shadow of what stands at its edge falls there
+    #[arg(long, value_name = "METRES", value_parser = super::args::metres, conflicts_with_all = ["area", "study", "points"])]
+    pub(crate) margin: Option<f64>,
+
     /// Only within the polygons of this file (GeoJSON); all that stands in the city's file throws shadow into them
     #[arg(long, value_name = "FILE", conflicts_with = "points")]
     pub(crate) study: Option<PathBuf>,
@@ -197,6 +201,31 @@ impl Places {
         values
     }
 
+    /// Of the cells of a grid those that lie in no building and are not among the first `done` places: they lie outside of a
+    /// study area, or were not measured. Nothing if there is none.
+    pub(super) fn outside(&self, city: &City, done: usize) -> Vec<bool> {
+        let Kind::Grid { grid, bound } = &self.kind else {
+            return Vec::new();
+        };
+        let mut outside = vec![false; grid.count()];
+        if let Bound::Study(study) = bound {
+            let (ground, inside) = (Ground::new(city), Inside::new(city));
+            for (index, outside) in (0..).zip(&mut outside) {
+                let at = grid.centre(index % grid.width, index / grid.width);
+                let is_free = || ground.at(at).is_none_or(|place| !inside.contains(place));
+                *outside = !study.contains(at) && is_free();
+            }
+        }
+        for &index in &self.tiles.indices()[done..] {
+            outside[index as usize] = true;
+        }
+        if outside.contains(&true) {
+            outside
+        } else {
+            Vec::new()
+        }
+    }
+
     /// For people.
     pub(super) fn describe(&self) -> String {
         let measured = self.tiles.places().len();
@@ -240,6 +269,7 @@ impl Places {
 fn on_ground(args: &PlacesArgs, city: &City, all: Extent, bound: Bound) -> anyhow::Result<Places> {
     let (option, [from, to]) = match &bound {
         Bound::Nothing => ("", [all.low, all.high]),
+        Bound::Box(within) if args.margin.is_some() => ("--margin: ", [within.low, within.high]),
         Bound::Box(within) => ("--area: ", [within.low, within.high]),
         Bound::Study(study) => ("--study: ", study.bounds()),
     };
