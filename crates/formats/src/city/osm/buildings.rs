@@ -5,9 +5,10 @@ use std::collections::HashSet;
 use ombra_city::{Draft, DraftBuilding, DraftPart};
 
 use super::super::CityOptions;
+use super::courtyards::polygons;
 use super::element::{Kind, Tag, is_of_building, says, value};
 use super::kept::{Kept, Relation, Way};
-use super::rings::{joined, polygons};
+use super::rings::joined;
 use super::room::Room;
 use crate::error::{FormatError, plural};
 
