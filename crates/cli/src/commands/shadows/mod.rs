@@ -85,6 +85,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
     let when = cpu.install(|| When::new(&args.when, place, args.samples_step()))?;
     let all = cpu.install(|| site.extent());
+    let surface = site.surface();
     let asked = Asked::read(&args.places, site.origin(), all, &talk)?;
     let (places, lowest) = (asked.extent(all), when.lowest_altitude());
     let (city, reach) = cpu.install(|| site.city(places, lowest))?;
@@ -93,12 +94,13 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
     let facets = city.facets();
     let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
-    let around = cpu.install(|| Reach::new(&facets, &places.tiles, &when));
+    let around = cpu.install(|| Reach::new(&facets, surface, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
-        "{}: {} buildings, {}; {} day{}, {:.1} h of sun ({})",
+        "{}: {} building{}, {}; {} day{}, {:.1} h of sun ({})",
         args.city,
         city.buildings.len(),
+        if city.buildings.len() == 1 { "" } else { "s" },
         places.describe(),
         when.days,
         if when.days == 1 { "" } else { "s" },
