@@ -88,6 +88,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
     let when = cpu.install(|| When::new(&args.when, place, args.samples_step()))?;
     let all = cpu.install(|| site.extent());
+    let surface = site.surface();
     let asked = Asked::read(&args.places, site.origin(), all, &talk)?;
     let (places, lowest) = (asked.extent(all), when.lowest_altitude());
     let (city, reach) = cpu.install(|| site.city(places, lowest))?;
@@ -96,7 +97,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
     let facets = city.facets();
     let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
-    let around = cpu.install(|| Reach::new(&facets, &places.tiles, &when));
+    let around = cpu.install(|| Reach::new(&facets, surface, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
         "{}: {} building{}, {}; {} day{} ({}), {:.1} h of sun ({})",
