@@ -218,7 +218,10 @@ fn what_fails_is_exit_code_1() {
         "01:00-02:00",
     ];
     let talk = fail(folder.path(), &night, 1);
-    assert!(talk.contains("nothing is left of the 9.1 h of sun"), "{talk}");
+    assert!(
+        talk.contains("nothing is left of the 9.1 h of sun"),
+        "{talk}"
+    );
 }
 
 #[test]
