@@ -56,6 +56,7 @@ mod triangulate;
 
 pub use building::{Building, Face, Faces, Part, Prism, Surface};
 pub use city::City;
+pub use context::Base;
 pub use crs::Crs;
 pub use draft::{Draft, DraftBuilding, DraftFace, DraftPart};
 pub use edit::{Change, EditError, Edited, Edits};

@@ -112,7 +112,8 @@ impl City {
                 .flatten()
                 .chain([a, [b[0], a[1]], b, [a[0], b[1]]])
                 .collect();
-            corners.into_iter().map(at).fold(f32::INFINITY, f32::min)
+            let lowest = corners.into_iter().filter_map(at).reduce(f32::min);
+            lowest.unwrap_or(building.ground)
         };
         if ground != building.ground {
             stand(building, ground, place, notes);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use ombra::city::{City, CityError, Crs, Edited, Edits, Extent, Origin, demo_city};
+use ombra::city::{Base, City, CityError, Crs, Edited, Edits, Extent, Origin, demo_city};
 use ombra::formats::Limits;
 use ombra::formats::city::{CityModel, Up, read_city, read_city_model};
 use ombra::formats::elevation::{Elevation, is_elevation, read_elevation};
@@ -159,6 +159,14 @@ impl<'a> Site<'a> {
         }
     }
 
+    /// Of a surface model: where it lies, and its highest height.
+    pub(super) fn surface(&self) -> Option<(Extent, f32)> {
+        match &self.ground {
+            GroundedOn::City(_) => None,
+            GroundedOn::Surface(surface) => Some((self.extent(), surface.field.range()[1])),
+        }
+    }
+
     /// The city with all that is around the places, as far as shadows reach while the sun stands at
     /// least so high, in radians; and how far that is, in metres.
     pub(super) fn city(self, places: Extent, altitude: f64) -> anyhow::Result<(City, f64)> {
@@ -184,34 +192,39 @@ impl<'a> Site<'a> {
         let of_terrain = |error: &CityError| of_file(&terrain_name.display().to_string(), error);
         let mut findings = Vec::new();
         let mut edited = self.edited;
+        let mut surface = None;
         let mut city = match self.ground {
             GroundedOn::City(mut city) => {
-                if let Some(terrain) = terrain {
+                if let Some(terrain) = &terrain {
                     let others = edited.as_mut().map(|edited| &mut edited.city);
                     for city in [&mut *city].into_iter().chain(others) {
                         (city.stand_on(&terrain.field, extent)).map_err(|e| of_terrain(&e))?;
                     }
-                    findings = terrain.findings;
                 }
                 *city
             }
-            GroundedOn::Surface(surface) => {
+            GroundedOn::Surface(mut found) => {
                 let below = terrain.as_ref().map(|terrain| &terrain.field);
-                let city = City::of_surface(&surface.field, below, extent);
-                findings.extend(surface.findings);
-                findings.extend(terrain.into_iter().flat_map(|terrain| terrain.findings));
+                let city = City::of_surface(&found.field, below, extent);
+                findings.append(&mut found.findings);
+                surface = Some(found.field);
                 city.map_err(|error| of_file(name, &error))?
             }
         };
+        findings.extend(terrain.iter().flat_map(|terrain| terrain.findings.clone()));
+        // Models stand on the bare ground, and also where no shadow reaches the places, so on all of its heights.
+        let bare = terrain.as_ref().map(|terrain| &terrain.field);
+        let on_ground = bare.or(surface.as_ref()).map_or(Base::Ground, Base::Field);
         city.findings.splice(0..0, findings);
         let origins = &self.args.surroundings.context_origin;
         for (index, (path, model)) in self.models.into_iter().enumerate() {
             let at = origins.get(index).or(origins.first());
             let at = at.expect("clap asks for an origin with a model");
             let file = path.display().to_string();
+            let base = at.base.map_or(on_ground, Base::Height);
             let others = edited.as_mut().map(|edited| &mut edited.city);
             for city in [&mut city].into_iter().chain(others) {
-                (city.add_model(model.triangles.iter().copied(), at.map, at.base))
+                (city.add_model(model.triangles.iter().copied(), at.map, base))
                     .map_err(|error| of_file(&file, &error))?;
             }
             city.findings

@@ -68,7 +68,7 @@ pub(super) fn write(
 }
 
 fn bound(when: &When) -> String {
-    format!("before and after {EXACT}, for a sun that is {}", when.sun())
+    format!("before and after {EXACT}; the sun is {}", when.sun())
 }
 
 /// What says how the numbers came about.
