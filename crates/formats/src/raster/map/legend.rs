@@ -44,7 +44,7 @@ impl Legend {
     /// From as much less to as much more: half as many ticks a side.
     fn both_ways(self) -> Self {
         let last = self.ticks.len() - 1;
-        let is_shown = |k: usize| k == 0 || k == last || (last % 2 == 0 && 2 * k == last);
+        let is_shown = |k: usize| k == 0 || k == last || (last.is_multiple_of(2) && 2 * k == last);
         let shown = (self.ticks.into_iter().enumerate()).filter(|(k, _)| is_shown(*k));
         let mut ticks = Vec::new();
         for (_, (value, text)) in shown {
