@@ -168,6 +168,9 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
 /// How good exact times are, for people.
 pub(super) const EXACT: &str = "exact in time: within 1 s a day, 0.05 s on average";
 
+/// What a map calls what lies around the polygons of `--study`.
+pub(super) const OUTSIDE: &str = "Outside of the study area";
+
 /// What is known of the times, for people.
 fn bound(args: &ShadowsArgs, when: &When, measured: &Measured) -> String {
     let sun = when.sun();
@@ -236,7 +239,7 @@ pub(super) fn write(
             ),
             outside: places.outside(city, measured.done),
             outside_name: if share.is_empty() {
-                "Outside of the study area".to_owned()
+                OUTSIDE.to_owned()
             } else {
                 "Not measured".to_owned()
             },

@@ -96,7 +96,7 @@ impl<'a> Statistics<'a> {
             gain: count(&|net| net > 0.0),
             lose: count(&|net| net < 0.0),
             gain_most: f64::from(most),
-            lose_most: f64::from(-least),
+            lose_most: f64::from(0.0 - least),
             built_over: turned(&minutes.before, &minutes.after),
             set_free: turned(&minutes.after, &minutes.before),
             measured_again: effort.again,

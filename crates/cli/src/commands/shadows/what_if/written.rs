@@ -8,7 +8,7 @@ use ombra::formats::raster::{
 use ombra::formats::{Metadata, write_image};
 
 use super::super::args::{OutputKind, ShadowsArgs};
-use super::super::output::{EXACT, stem};
+use super::super::output::{EXACT, OUTSIDE, stem};
 use super::super::places::{Kind, Places};
 use super::super::rows::with_rows;
 use super::super::when::When;
@@ -51,11 +51,14 @@ pub(super) fn write(
     }
     if let (Some(path), Kind::Grid { grid, .. }) = (&args.png, &places.kind) {
         let raster = Raster::new(&city.origin, *grid, Unit::Minutes, net)?;
+        let title = || format!("Net new shadow: {}", stem(&args.city));
         let style = MapStyle {
-            title: format!("Net new shadow: {}", stem(&args.city)),
+            title: args.title.clone().unwrap_or_else(title),
             subtitle: format!("{} ({})", when.text, when.zone),
             footer: format!("ombra {}; {}", env!("CARGO_PKG_VERSION"), bound(when)),
             scale: Scale::Change,
+            outside: places.outside(city, places.tiles.places().len()),
+            outside_name: OUTSIDE.to_owned(),
             ..MapStyle::default()
         };
         let metadata = Metadata {
