@@ -104,7 +104,8 @@ impl ShadowsArgs {
         (self.method == Method::Sampled).then(|| self.step())
     }
 
-    fn step(&self) -> f64 {
+    /// The same, whether or not there are any.
+    pub(crate) fn step(&self) -> f64 {
         self.step.unwrap_or(60.0)
     }
 
@@ -119,10 +120,8 @@ impl ShadowsArgs {
         let SurroundingsArgs {
             terrain, context, ..
         } = &self.surroundings;
-        let files = [study, points, terrain]
-            .into_iter()
-            .flatten()
-            .chain(context);
+        let files = [study, points, terrain].into_iter().flatten();
+        let files = files.chain(context).chain(&self.what_if.with);
         [Path::new(&self.city)]
             .into_iter()
             .chain(files.map(PathBuf::as_path))

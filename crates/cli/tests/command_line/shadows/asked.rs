@@ -38,6 +38,20 @@ fn no_file_that_is_read_is_written() {
         said.contains("./house.geojson: is a file that is read"),
         "{said}"
     );
+    let tower = [
+        "shadows",
+        "demo",
+        "--date",
+        "2026-12-21",
+        "--with",
+        "house.geojson",
+    ];
+    let said = fail(
+        folder.path(),
+        &[&tower[..], &["-o", "house.geojson"]].concat(),
+        2,
+    );
+    assert!(said.contains("is a file that is read"), "{said}");
     let kept = std::fs::read_to_string(folder.path().join("house.geojson")).unwrap();
     assert_eq!(kept, HOUSE);
 }
