@@ -112,12 +112,7 @@ pub(super) fn measure(
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
-            let samples = cpu.install(|| {
-                when.samples(
-                    args.samples_step()
-                        .expect("there is a step where there are samples"),
-                )
-            });
+            let samples = cpu.install(|| when.samples(args.step()));
             let part = |which| {
                 let places = &tiles.places()[tiles.range(which)];
                 cpu.install(|| {

@@ -186,8 +186,7 @@ fn bound(args: &ShadowsArgs, when: &When, measured: &Measured) -> String {
         ),
         (Method::Exact | Method::Fast, _) => format!("{EXACT}; the sun is {sun}"),
         (Method::Sampled, _) => {
-            let step = args.samples_step().unwrap_or_default();
-            format!("one sample every {step} s; the sun is {sun}")
+            format!("one sample every {} s; the sun is {sun}", args.step())
         }
     }
 }
