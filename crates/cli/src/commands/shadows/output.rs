@@ -122,6 +122,18 @@ impl<'a> Statistics<'a> {
     }
 }
 
+/// Which files were written, for the beginning of a line.
+pub(super) fn files(written: [Option<&Path>; 2]) -> String {
+    let files: Vec<String> = (written.iter().flatten())
+        .map(|file| file.display().to_string())
+        .collect();
+    if files.is_empty() {
+        String::new()
+    } else {
+        format!("{}: ", files.join(", "))
+    }
+}
+
 /// One line for people.
 pub(super) fn summary(statistics: &Statistics<'_>) -> String {
     let Statistics {
@@ -132,12 +144,6 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
         places_per_second,
         ..
     } = statistics;
-    let files = [statistics.output, statistics.png];
-    let files: Vec<String> = files
-        .iter()
-        .flatten()
-        .map(|file| file.display().to_string())
-        .collect();
     let kept = if statistics.interrupted && statistics.output.or(statistics.png).is_some() {
         "interrupted, kept what was done (--resume goes on): "
     } else if statistics.interrupted {
@@ -145,11 +151,7 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
     } else {
         ""
     };
-    let files = if files.is_empty() {
-        String::new()
-    } else {
-        format!("{}: ", files.join(", "))
-    };
+    let files = files([statistics.output, statistics.png]);
     let minutes = statistics.sun_hours * 60.0;
     let some = statistics.some_days.filter(|some| some.days > 0);
     let some = some.map_or_else(String::new, |some| {
@@ -164,6 +166,9 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
         build_seconds + seconds,
     )
 }
+
+/// What wrote a file.
+pub(super) const VERSION: &str = concat!("ombra ", env!("CARGO_PKG_VERSION"));
 
 /// How good exact times are, for people.
 pub(super) const EXACT: &str = "exact in time: within 1 s a day, 0.05 s on average";
@@ -209,7 +214,9 @@ pub(super) fn write(
 ) -> anyhow::Result<()> {
     let values = places.spread(&measured.minutes);
     if let Some(path) = &args.output {
-        let metadata = metadata(args, when, measured);
+        let bound = bound(args, when, measured);
+        let mut metadata = metadata(when, args.method, bound, "minutes in shadow");
+        metadata.extend(share(measured).map(|share| ("measured".to_owned(), share)));
         match (OutputKind::of(path), &places.kind) {
             (OutputKind::GeoJson, _) => with_rows(places, city, &values, None, |rows| {
                 write_places_geojson(path, rows, &metadata)
@@ -231,11 +238,7 @@ pub(super) fn write(
         let style = MapStyle {
             title: args.title.clone().unwrap_or_else(title),
             subtitle: format!("{} ({})", when.text, when.zone),
-            footer: format!(
-                "{share}ombra {}; {}",
-                env!("CARGO_PKG_VERSION"),
-                bound(args, when, measured)
-            ),
+            footer: format!("{share}{VERSION}; {}", bound(args, when, measured)),
             outside: places.outside(city, measured.done),
             outside_name: if share.is_empty() {
                 OUTSIDE.to_owned()
@@ -255,13 +258,17 @@ pub(super) fn write(
             },
             ..MapStyle::default()
         };
-        let metadata = Metadata {
-            version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
-            ..Metadata::default()
-        };
-        write_image(path, &map_picture(&raster, &style), &metadata)?;
+        write_map(path, &raster, &style)?;
     }
     Ok(())
+}
+
+pub(super) fn write_map(path: &Path, raster: &Raster<'_>, style: &MapStyle) -> anyhow::Result<()> {
+    let metadata = Metadata {
+        version: Some(VERSION.to_owned()),
+        ..Metadata::default()
+    };
+    Ok(write_image(path, &map_picture(raster, style), &metadata)?)
 }
 
 /// The name of a city's file.
@@ -273,24 +280,24 @@ pub(super) fn stem(city: &str) -> String {
     )
 }
 
-/// What says how the numbers came about.
-fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> Vec<(String, String)> {
-    let entry = |key: &str, value: String| (key.to_owned(), value);
-    let mut entries = vec![
-        entry("command", command()),
-        entry(
-            "version",
-            concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned(),
-        ),
-        entry("when", when.text.clone()),
-        entry("time_zone", when.zone.clone()),
-        entry("days", when.days.to_string()),
-        entry("sun", when.sun()),
-        entry("sun_hours", format!("{:.6}", when.hours())),
-        entry("method", args.method.name().to_owned()),
-        entry("bound", bound(args, when, measured)),
-        entry("unit", "minutes in shadow".to_owned()),
+/// What says how the numbers came about: those of a method, with its bound, of what `unit` says.
+pub(super) fn metadata(
+    when: &When,
+    method: Method,
+    bound: String,
+    unit: &str,
+) -> Vec<(String, String)> {
+    let all = [
+        ("command", command()),
+        ("version", VERSION.to_owned()),
+        ("when", when.text.clone()),
+        ("time_zone", when.zone.clone()),
+        ("days", when.days.to_string()),
+        ("sun", when.sun()),
+        ("sun_hours", format!("{:.6}", when.hours())),
+        ("method", method.name().to_owned()),
+        ("bound", bound),
+        ("unit", unit.to_owned()),
     ];
-    entries.extend(share(measured).map(|share| entry("measured", share)));
-    entries
+    all.map(|(key, value)| (key.to_owned(), value)).into()
 }

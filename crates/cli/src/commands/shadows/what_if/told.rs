@@ -6,6 +6,7 @@ use ombra::city::City;
 use serde::Serialize;
 
 use super::super::args::ShadowsArgs;
+use super::super::output::files;
 use super::super::when::When;
 use super::{Effort, Minutes};
 
@@ -108,14 +109,7 @@ impl<'a> Statistics<'a> {
 
     /// For people.
     pub(super) fn line(&self) -> String {
-        let files: Vec<String> = ([self.output, self.png].iter().flatten())
-            .map(|file| file.display().to_string())
-            .collect();
-        let files = if files.is_empty() {
-            String::new()
-        } else {
-            format!("{}: ", files.join(", "))
-        };
+        let files = files([self.output, self.png]);
         format!(
             "{files}{} places gain shadow, {:.1} minutes at most; {} lose some, {:.1} at most; net {:+.3} minutes on \
              average; {} of {} places measured again in {:.2} s (all: {:.2} s)",

@@ -2,18 +2,14 @@
 
 use ombra::city::City;
 use ombra::formats::places::{write_places_geojson, write_places_parquet};
-use ombra::formats::raster::{
-    Band, MapStyle, Raster, Scale, Unit, map_picture, write_geotiff_bands,
-};
-use ombra::formats::{Metadata, write_image};
+use ombra::formats::raster::{Band, MapStyle, Raster, Scale, Unit, write_geotiff_bands};
 
 use super::super::args::{OutputKind, ShadowsArgs};
-use super::super::output::{EXACT, OUTSIDE, stem};
+use super::super::output::{EXACT, OUTSIDE, VERSION, metadata, stem, write_map};
 use super::super::places::{Kind, Places};
 use super::super::rows::with_rows;
 use super::super::when::When;
 use super::Minutes;
-use crate::commands::command;
 
 /// Of the city and the places as they are after the change.
 pub(super) fn write(
@@ -25,7 +21,8 @@ pub(super) fn write(
 ) -> anyhow::Result<()> {
     let Minutes { before, after, net } = minutes;
     if let Some(path) = &args.output {
-        let metadata = metadata(when);
+        let unit = "minutes in shadow before and after, and after less before";
+        let metadata = metadata(when, args.method, bound(when), unit);
         let change = Some([&before[..], &net[..]]);
         match (OutputKind::of(path), &places.kind) {
             (OutputKind::GeoJson, _) => with_rows(places, city, after, change, |rows| {
@@ -55,42 +52,17 @@ pub(super) fn write(
         let style = MapStyle {
             title: args.title.clone().unwrap_or_else(title),
             subtitle: format!("{} ({})", when.text, when.zone),
-            footer: format!("ombra {}; {}", env!("CARGO_PKG_VERSION"), bound(when)),
+            footer: format!("{VERSION}; {}", bound(when)),
             scale: Scale::Change,
             outside: places.outside(city, places.tiles.places().len()),
             outside_name: OUTSIDE.to_owned(),
             ..MapStyle::default()
         };
-        let metadata = Metadata {
-            version: Some(concat!("ombra ", env!("CARGO_PKG_VERSION")).to_owned()),
-            ..Metadata::default()
-        };
-        write_image(path, &map_picture(&raster, &style), &metadata)?;
+        write_map(path, &raster, &style)?;
     }
     Ok(())
 }
 
 fn bound(when: &When) -> String {
     format!("before and after {EXACT}; the sun is {}", when.sun())
-}
-
-/// What says how the numbers came about.
-fn metadata(when: &When) -> Vec<(String, String)> {
-    let version = concat!("ombra ", env!("CARGO_PKG_VERSION"));
-    let all = [
-        ("command", command()),
-        ("version", version.to_owned()),
-        ("when", when.text.clone()),
-        ("time_zone", when.zone.clone()),
-        ("days", when.days.to_string()),
-        ("sun", when.sun()),
-        ("sun_hours", format!("{:.6}", when.hours())),
-        ("method", "exact".to_owned()),
-        ("bound", bound(when)),
-        (
-            "unit",
-            "minutes in shadow before and after, and after less before".to_owned(),
-        ),
-    ];
-    all.map(|(name, value)| (name.to_owned(), value)).into()
 }
