@@ -41,6 +41,15 @@ impl Legend {
         }
     }
 
+    fn of_shadow(unit: Unit, max: f64, ticks: Vec<(f64, String)>) -> Self {
+        Self {
+            unit,
+            scale: Scale::Shadow,
+            max,
+            ticks,
+        }
+    }
+
     /// From as much less to as much more: half as many ticks a side.
     fn both_ways(self) -> Self {
         let last = self.ticks.len() - 1;
@@ -79,13 +88,7 @@ impl Legend {
         let mut fitting = with_ends.filter(|&(step, max)| fits(step, max));
         let (step, max) = fitting.next().unwrap_or((largest, largest));
         let ticks = ticks(step, max);
-        let scale = Scale::Shadow;
-        Self {
-            unit,
-            scale,
-            max,
-            ticks,
-        }
+        Self::of_shadow(unit, max, ticks)
     }
 
     /// A legend that ends where it is told to, with a plus if there is more.
@@ -102,13 +105,7 @@ impl Legend {
         let is_multiple = (max / step).fract().abs() < 1e-6;
         let own_step = if is_multiple { step } else { step / 10.0 };
         ticks.push((max, format!("{}{more}", round::text(max, own_step))));
-        let scale = Scale::Shadow;
-        Self {
-            unit,
-            scale,
-            max,
-            ticks,
-        }
+        Self::of_shadow(unit, max, ticks)
     }
 
     /// Draws it with its upper left corner at `x`, `y`; `swatches` name what has no value.
