@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use arrayvec::ArrayVec;
 use ombra_city::Change;
-use ombra_geometry::Point3;
+use ombra_geometry::{Aabb, Point3};
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
@@ -59,7 +59,7 @@ impl Again {
             .map_init(Room::new, |room, first| {
                 let block = first..before.len().min(first + BLOCK);
                 let around = look.around(block.clone());
-                let [low, high] = around;
+                let [low, high] = [around.min, around.max].map(Point3::to_array);
                 let meets = |[from, to]: &[[f32; 2]; 2]| {
                     (0..2).all(|k| low[k] <= to[k] && from[k] <= high[k])
                 };
@@ -119,12 +119,7 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn changed_tiles(
-        &self,
-        block: Range<usize>,
-        around: [[f32; 3]; 2],
-        room: &mut Room,
-    ) -> Vec<usize> {
+    fn changed_tiles(&self, block: Range<usize>, around: Aabb, room: &mut Room) -> Vec<usize> {
         let mut found = Vec::new();
         if !self.may_shade(around, room) {
             return found;
@@ -143,19 +138,12 @@ impl Look<'_> {
     }
 
     /// The box around the places of some tiles.
-    fn around(&self, which: Range<usize>) -> [[f32; 3]; 2] {
+    fn around(&self, which: Range<usize>) -> Aabb {
         let places = self.tiles.places()[self.tiles.range(which)].iter();
-        let nothing = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-        (places.filter(|place| is_somewhere(place))).fold(nothing, |[low, high], place| {
-            let at = place.to_array();
-            [
-                [0, 1, 2].map(|k| low[k].min(at[k])),
-                [0, 1, 2].map(|k| high[k].max(at[k])),
-            ]
-        })
+        Aabb::around(places.filter(|place| is_somewhere(place)).copied())
     }
 
-    fn may_shade(&self, around: [[f32; 3]; 2], room: &mut Room) -> bool {
+    fn may_shade(&self, around: Aabb, room: &mut Room) -> bool {
         let level = self.exact.level();
         let mut all = self.exact.ways().iter();
         all.any(|ways| may_cover(level, self.changed, ways, around, room))

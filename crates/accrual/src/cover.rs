@@ -121,14 +121,7 @@ impl Cover {
         let mut sums = *seconds;
         for (&length, (before, after)) in lengths.iter().zip(rows) {
             for place in 0..PLACES {
-                let (before, after) = (before[place], after[place]);
-                let open = f64::from(after) - f64::from(before);
-                let share = if before + JOIN < after {
-                    1.0 - open
-                } else {
-                    1.0
-                };
-                sums[place] += length * share;
+                sums[place] += length * share(before[place], after[place]);
             }
         }
         *seconds = sums;
@@ -142,13 +135,8 @@ impl Cover {
 
     /// What is added for an arc of length 1, by place: of its beginning and end, and of its pieces.
     pub(crate) fn shares(&self, arc: usize) -> [[f64; PLACES]; 2] {
-        let mut shares = [[1.0; PLACES], [0.0; PLACES]];
-        for (place, share) in shares[0].iter_mut().enumerate() {
-            let (before, after) = (self.before[arc][place], self.after[arc][place]);
-            if before + JOIN < after {
-                *share = 1.0 - (f64::from(after) - f64::from(before));
-            }
-        }
+        let ends = |place| share(self.before[arc][place], self.after[arc][place]);
+        let mut shares = [std::array::from_fn(ends), [0.0; PLACES]];
         self.add_pieces(arc, 1.0, &mut shares[1]);
         shares
     }
@@ -167,6 +155,16 @@ impl Cover {
         for (seconds, share) in seconds.iter_mut().zip(shares) {
             *seconds += length * share;
         }
+    }
+}
+
+/// What of an arc is covered from its beginning to `before` and from `after` to its end.
+#[inline(always)]
+fn share(before: f32, after: f32) -> f64 {
+    if before + JOIN < after {
+        1.0 - (f64::from(after) - f64::from(before))
+    } else {
+        1.0
     }
 }
 

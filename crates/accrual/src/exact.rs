@@ -89,20 +89,27 @@ impl<'a> Exact<'a> {
 
     /// For which tiles, by bits, the polygons that it has besides make a difference. There are [`TILES`] at most.
     pub(crate) fn changes(&self, tiles: &[Tile], room: &mut Room) -> u32 {
-        let mut found = 0;
-        for ways in &self.ways {
+        let jobs = self.jobs(tiles);
+        jobs.fold(0, |found, (first, job)| {
+            found | changes(self.level, job, room) << first
+        })
+    }
+
+    /// What is looked at together, and which of the tiles its first one is.
+    fn jobs<'t>(&'t self, tiles: &'t [Tile]) -> impl Iterator<Item = (usize, Job<'t>)> {
+        self.ways.iter().flat_map(move |ways| {
             let together = TOGETHER / ways.list().len();
-            for (part, tiles) in tiles.chunks(together).enumerate() {
+            let parts = tiles.chunks(together).enumerate();
+            parts.map(move |(part, tiles)| {
                 let job = Job {
                     occluders: self.occluders,
                     more: self.more,
                     ways,
                     tiles,
                 };
-                found |= changes(self.level, job, room) << (part * together);
-            }
-        }
-        found
+                (part * together, job)
+            })
+        })
     }
 
     pub(crate) const fn level(&self) -> Level {
@@ -127,22 +134,13 @@ impl<'a> Exact<'a> {
         room: &mut Room,
         mut show: impl FnMut(usize, usize, &[f64; PLACES]),
     ) {
-        for ways in &self.ways {
-            let count = ways.list().len();
-            let together = TOGETHER / count;
-            for (part, tiles) in tiles.chunks(together).enumerate() {
-                let mut seconds = [[0.0; PLACES]; TOGETHER];
-                let job = Job {
-                    occluders: self.occluders,
-                    more: self.more,
-                    ways,
-                    tiles,
-                };
-                add_seconds(self.level, job, room, &mut seconds);
-                for (tile, seconds) in (seconds.chunks_exact(count).take(tiles.len())).enumerate() {
-                    for (&which, seconds) in ways.which.iter().zip(seconds) {
-                        show(part * together + tile, which, seconds);
-                    }
+        for (first, job) in self.jobs(tiles) {
+            let mut seconds = [[0.0; PLACES]; TOGETHER];
+            add_seconds(self.level, job, room, &mut seconds);
+            let by_tile = seconds.chunks_exact(job.ways.list().len());
+            for (tile, seconds) in by_tile.take(job.tiles.len()).enumerate() {
+                for (&which, seconds) in job.ways.which.iter().zip(seconds) {
+                    show(first + tile, which, seconds);
                 }
             }
         }

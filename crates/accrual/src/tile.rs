@@ -1,6 +1,6 @@
 //! Sixteen places that lie near one another.
 
-use ombra_geometry::Point3;
+use ombra_geometry::{Aabb, Point3};
 
 /// How many places a tile has.
 pub(crate) const PLACES: usize = 16;
@@ -11,8 +11,7 @@ pub(crate) const PLACES: usize = 16;
 pub(crate) struct Tile {
     /// By axis the coordinates, in local metres.
     pub(crate) at: [[f32; PLACES]; 3],
-    pub(crate) least: [f32; 3],
-    pub(crate) most: [f32; 3],
+    pub(crate) bounds: Aabb,
     /// How many places there are.
     pub(crate) count: usize,
 }
@@ -26,33 +25,24 @@ impl Tile {
             Some(place) if is_somewhere(place) => place.to_array(),
             _ => known,
         };
-        let at: [[f32; 3]; PLACES] = std::array::from_fn(place);
-        let at = [0, 1, 2].map(|axis| at.map(|place| place[axis]));
-        let least = at.map(|of: [f32; PLACES]| of.into_iter().fold(f32::INFINITY, f32::min));
-        let most = at.map(|of| of.into_iter().fold(f32::NEG_INFINITY, f32::max));
+        let all: [[f32; 3]; PLACES] = std::array::from_fn(place);
         Self {
-            at,
-            least,
-            most,
+            at: [0, 1, 2].map(|axis| all.map(|place| place[axis])),
+            bounds: Aabb::around(all.map(Point3::from)),
             count: places.len(),
         }
     }
 
     /// The box around all of some tiles.
-    pub(crate) fn around(tiles: &[Self]) -> [[f32; 3]; 2] {
-        let nothing = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-        tiles.iter().fold(nothing, |[least, most], tile| {
-            [
-                [0, 1, 2].map(|k| least[k].min(tile.least[k])),
-                [0, 1, 2].map(|k| most[k].max(tile.most[k])),
-            ]
-        })
+    pub(crate) fn around(tiles: &[Self]) -> Aabb {
+        let bounds = tiles.iter().map(|tile| tile.bounds);
+        bounds.fold(Aabb::EMPTY, Aabb::union)
     }
 
     /// The longest side of that box.
     pub(crate) fn length(tiles: &[Self]) -> f32 {
-        let [least, most] = Self::around(tiles);
-        (0..3).map(|k| most[k] - least[k]).fold(0.0, f32::max)
+        let sides = Self::around(tiles).extent().to_array();
+        sides.into_iter().fold(0.0, f32::max)
     }
 }
 

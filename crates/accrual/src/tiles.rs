@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use ombra_city::{Change, City, Grid, Inside};
-use ombra_geometry::Point3;
+use ombra_geometry::{Aabb, Point3};
 use rayon::prelude::*;
 
 use crate::ground::Ground;
@@ -247,17 +247,10 @@ fn halve(places: &[Point3], indices: &mut [u32]) {
         return;
     }
     let at = |index: u32| places[index as usize].to_array();
-    let nothing = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-    let [least, most] = indices.iter().fold(nothing, |[least, most], &index| {
-        let at = at(index);
-        [
-            [0, 1, 2].map(|k| f32::min(least[k], at[k])),
-            [0, 1, 2].map(|k| f32::max(most[k], at[k])),
-        ]
-    });
-    let side = |axis: usize| most[axis] - least[axis];
+    let all = indices.iter().map(|&index| places[index as usize]);
+    let sides = Aabb::around(all).extent().to_array();
     let axis = (1..3).fold(0, |axis, other| {
-        if side(other) > side(axis) {
+        if sides[other] > sides[axis] {
             other
         } else {
             axis

@@ -1,6 +1,7 @@
 //! One entry a level.
 
 use ombra_accel::Level;
+use ombra_geometry::Aabb;
 
 use super::differs::differs;
 use super::lanes::{Lanes, Pair, Portable};
@@ -53,7 +54,7 @@ mod x86 {
     pub(super) unsafe fn may_cover(
         occluders: &Occluders,
         ways: &Ways,
-        around: [[f32; 3]; 2],
+        around: Aabb,
         room: &mut Room,
     ) -> bool {
         // SAFETY: the caller's promise.
@@ -101,7 +102,7 @@ pub(crate) fn may_cover(
     level: Level,
     occluders: &Occluders,
     ways: &Ways,
-    around: [[f32; 3]; 2],
+    around: Aabb,
     room: &mut Room,
 ) -> bool {
     match level {

@@ -6,6 +6,7 @@
 //! the test gets stricter as the day fills: what is near comes first.
 
 use ombra_accel::{BoxChild, BoxNode};
+use ombra_geometry::Aabb;
 
 use super::lanes::{Lanes, Mask as _};
 use super::polygon::polygon;
@@ -94,7 +95,7 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
 pub(super) unsafe fn reaches<N: Lanes>(
     occluders: &Occluders,
     ways: &Ways,
-    around: [[f32; 3]; 2],
+    around: Aabb,
     waiting: &mut Vec<Waiting>,
 ) -> bool {
     waiting.clear();
@@ -142,7 +143,8 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn new([[x, y, z], [u, v, w]]: [[f32; 3]; 2], reach: f32) -> Self {
+    unsafe fn new(around: Aabb, reach: f32) -> Self {
+        let ([x, y, z], [u, v, w]) = (around.min.to_array(), around.max.to_array());
         let size = x.abs().max(y.abs()).max(z.abs());
         let size = size.max(u.abs()).max(v.abs()).max(w.abs());
         // Against rounding of differences.
