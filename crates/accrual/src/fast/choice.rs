@@ -17,7 +17,7 @@ const OPEN: f64 = 0.2;
 
 /// How many tolerances may be in question from day to day where not every day is measured: jumps fall this
 /// way and that, so what is in question is more than what is wrong.
-const QUESTION: f64 = 1.0;
+const QUESTION: f64 = 0.7;
 
 /// How many tiles are compared, of how many: more would take longer than what they spare.
 const TILES: std::ops::RangeInclusive<usize> = 16..=128;

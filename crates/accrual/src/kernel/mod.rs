@@ -9,8 +9,10 @@ mod lanes;
 mod polygon;
 mod prefetch;
 mod reference;
+mod stretches;
 mod walk;
 
-pub(crate) use dispatch::{Job, Room, add_seconds};
+pub(crate) use dispatch::{FindRoom, Job, Room, add_seconds, find_stretches};
 #[cfg(test)]
 pub(crate) use reference::{Side, covered};
+pub(crate) use stretches::Record;

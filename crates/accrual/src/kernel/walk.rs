@@ -8,7 +8,7 @@
 use ombra_accel::{BoxChild, BoxNode};
 
 use super::lanes::{Lanes, Mask as _};
-use super::polygon::polygon;
+use super::polygon::{Nothing, polygon};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::Tile;
@@ -19,10 +19,12 @@ use crate::ways::{TURN_PAD, Ways};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Waiting {
     /// As in the node above.
-    child: BoxChild,
-    arcs: [u8; 2],
+    pub(super) child: BoxChild,
+    pub(super) arcs: [u8; 2],
     /// The squared tangent of its altitude.
-    steep: f32,
+    pub(super) steep: f32,
+    /// The square of how far away its box begins, level.
+    pub(super) distance: f32,
 }
 
 /// Covers what of the ways is covered for the tiles: a cover for each way of each tile. `N` has eight lanes, `P`
@@ -75,7 +77,16 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
                         let occluder = &occluders.list[which];
                         full = u64::MAX;
                         for (tile, covers) in tiles.iter().zip(covers.chunks_exact_mut(count)) {
-                            polygon::<P>(occluder, ways.list(), arcs, next.steep, tile, covers);
+                            let (list, steep) = (ways.list(), next.steep);
+                            polygon::<P, _>(
+                                occluder,
+                                list,
+                                arcs,
+                                steep,
+                                tile,
+                                covers,
+                                &mut Nothing,
+                            );
                             for cover in covers {
                                 full &= cover.full;
                             }
@@ -102,7 +113,7 @@ pub(super) fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
 }
 
 /// Tiles as boxes are looked at from them.
-struct Around<N> {
+pub(super) struct Around<N> {
     least: [N; 3],
     most: [N; 3],
 }
@@ -111,7 +122,7 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn new(tiles: &[Tile], reach: f32) -> Self {
+    pub(super) unsafe fn new(tiles: &[Tile], reach: f32) -> Self {
         let [[x, y, z], [u, v, w]] = Tile::around(tiles);
         let size = x.abs().max(y.abs()).max(z.abs());
         let size = size.max(u.abs()).max(v.abs()).max(w.abs());
@@ -131,7 +142,7 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn push(
+    pub(super) unsafe fn push(
         &self,
         occluders: &Occluders,
         node: &BoxNode,
@@ -215,6 +226,7 @@ impl<N: Lanes> Around<N> {
                 child: node.child[k],
                 arcs: own.map(|arc| arc as u8),
                 steep: steep[k],
+                distance: key,
             });
             while place > 0 && keys[place - 1] < key {
                 keys[place] = keys[place - 1];
