@@ -8,7 +8,7 @@ use crate::tile::PLACES;
 use crate::way::MOST;
 
 /// Shares of an arc's time that lie no further apart than this are joined: walls that share an edge
-/// leave gaps by rounding, of about 1e-7. Of an arc of nine minutes this is half a millisecond.
+/// leave gaps by rounding, of about 1e-7. Of an arc of twenty minutes this is a millisecond.
 pub(crate) const JOIN: f32 = 1e-6;
 
 /// A stretch that touches neither the beginning nor the end.

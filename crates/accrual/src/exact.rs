@@ -2,7 +2,7 @@
 //!
 //! A polygon covers the sun, seen from a place, from when the sun crosses the plane through the place and one edge until it crosses that
 //! of another one. So each polygon is turned into a stretch of time, and the shadow of a day is the union of these. The
-//! sun's way is a chain of conic arcs that depart from its true one by less than a second of time.
+//! sun's way is a chain of conic arcs, see [`Sheet`] for how little they depart from its true one.
 
 use arrayvec::ArrayVec;
 use ombra_accel::Level;
@@ -34,17 +34,23 @@ impl<'a> Exact<'a> {
     /// seconds are the sum of all.
     #[must_use]
     pub fn new(occluders: &'a Occluders, sheets: &[Sheet]) -> Self {
-        let sheets = sheets.par_iter().filter(|sheet| !sheet.arcs().is_empty());
         Self {
             occluders,
-            ways: Ways::together(sheets.map(Way::new).collect()),
+            ways: Ways::together(sheets.par_iter().map(Way::new).collect()),
             level: Level::detect(),
         }
     }
 
     /// The same at another level of instructions, with the same answers to the bit.
+    ///
+    /// # Panics
+    /// If this machine does not have the level, see [`Level::available`].
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
+        assert!(
+            Level::available().contains(&level),
+            "this machine does not have {level:?}"
+        );
         Self { level, ..self }
     }
 

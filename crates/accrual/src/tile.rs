@@ -26,13 +26,8 @@ impl Tile {
             Some(place) if is_somewhere(place) => place.to_array(),
             _ => known,
         };
-        let mut at = [[0.0; PLACES]; 3];
-        for k in 0..PLACES {
-            let place = place(k);
-            for axis in 0..3 {
-                at[axis][k] = place[axis];
-            }
-        }
+        let at: [[f32; 3]; PLACES] = std::array::from_fn(place);
+        let at = [0, 1, 2].map(|axis| at.map(|place| place[axis]));
         let least = at.map(|of: [f32; PLACES]| of.into_iter().fold(f32::INFINITY, f32::min));
         let most = at.map(|of| of.into_iter().fold(f32::NEG_INFINITY, f32::max));
         Self {

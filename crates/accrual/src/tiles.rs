@@ -5,7 +5,7 @@ use ombra_geometry::Point3;
 use rayon::prelude::*;
 
 use crate::ground::Ground;
-use crate::tile::PLACES;
+use crate::tile::{PLACES, is_somewhere};
 
 /// Places in tiles of up to sixteen that lie near one another.
 #[derive(Clone, Debug, Default)]
@@ -67,12 +67,7 @@ impl Tiles {
     pub fn near(places: &[Point3]) -> Self {
         // A place that is nowhere comes last, so that it parts no others.
         let (mut indices, nowhere): (Vec<u32>, Vec<u32>) =
-            (0..places.len() as u32).partition(|&index| {
-                places[index as usize]
-                    .to_array()
-                    .iter()
-                    .all(|x| x.is_finite())
-            });
+            (0..places.len() as u32).partition(|&index| is_somewhere(&places[index as usize]));
         halve(places, &mut indices);
         indices.extend(nowhere);
         let ends = (0..places.len()).step_by(PLACES);

@@ -1,9 +1,10 @@
 //! The way of the sun over a stretch of time, ready for the kernel.
 
-use ombra_sun::Sheet;
+use ombra_sun::{MAX_ARCS, Sheet};
 
-/// The most arcs of a way.
+/// The most arcs of a way: sets of them are 64 bits.
 pub(crate) const MOST: usize = 64;
+const _: () = assert!(MAX_ARCS <= MOST);
 
 /// Arcs, in single precision.
 #[derive(Clone, Debug)]

@@ -205,8 +205,8 @@ mod tests {
     use super::*;
     use crate::way::turn;
 
-    fn sheets(latitude: f64) -> Vec<Sheet> {
-        let sky = Sky::new(Place::new(latitude, 5.0, 0.0).unwrap(), Refraction::None).unwrap();
+    fn sheets(latitude: f64, refraction: Refraction) -> Vec<Sheet> {
+        let sky = Sky::new(Place::new(latitude, 5.0, 0.0).unwrap(), refraction).unwrap();
         let first = jiff::civil::date(2026, 1, 1);
         let days = first.series(jiff::Span::new().days(5)).take(73);
         let spans =
@@ -216,8 +216,13 @@ mod tests {
 
     #[test]
     fn each_way_lies_within_the_outline_of_those_that_it_is_with() {
-        for latitude in [-78.0, -33.0, 0.0, 10.0, 23.4, 52.0, 66.0, 80.0] {
-            let sheets = sheets(latitude);
+        let mut sizes = [0; TOGETHER + 1];
+        for (k, latitude) in [-78.0, -33.0, 0.0, 10.0, 23.4, 52.0, 66.0, 80.0]
+            .into_iter()
+            .enumerate()
+        {
+            let refraction = [Refraction::None, Refraction::SEA][k % 2];
+            let sheets = sheets(latitude, refraction);
             let ways: Vec<Way> = sheets.iter().map(Way::new).collect();
             let groups = Ways::together(ways.clone());
             let mut seen: Vec<usize> = groups.iter().flat_map(|ways| ways.which.clone()).collect();
@@ -225,7 +230,7 @@ mod tests {
             assert!(seen.into_iter().eq(0..sheets.len()));
             assert!(groups.len() < sheets.len(), "nothing is together");
             for group in &groups {
-                assert!(group.list().len() <= TOGETHER);
+                sizes[group.list().len()] += 1;
                 for &which in &group.which {
                     let clockwise = if sheets[which].clockwise() { 1.0 } else { -1.0 };
                     assert_eq!(group.sign, clockwise);
@@ -246,5 +251,6 @@ mod tests {
                 }
             }
         }
+        assert!(sizes[1..].iter().all(|&count| count > 0), "{sizes:?}");
     }
 }

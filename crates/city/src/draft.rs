@@ -1,6 +1,7 @@
 //! A city as a file has it, on its way to local metres.
 
 mod closed;
+mod degrees;
 
 use ombra_geometry::Point3;
 
@@ -10,6 +11,7 @@ use crate::crs::Crs;
 use crate::error::CityError;
 use crate::facet::Facet;
 use crate::finding::Notes;
+use crate::heights::Names;
 use crate::origin::Origin;
 use crate::parts;
 use crate::repair;
@@ -30,6 +32,8 @@ pub struct Draft {
     pub parts: Vec<DraftBuilding>,
     /// Triangles of the ground: coordinates of the map, and z in metres.
     pub terrain: Vec<[[f64; 3]; 3]>,
+    /// What its buildings call their heights.
+    pub names: Names,
     /// What was met so far.
     pub notes: Notes,
 }
@@ -84,6 +88,7 @@ impl Draft {
             buildings: Vec::new(),
             parts: Vec::new(),
             terrain: Vec::new(),
+            names: Names::default(),
             notes: Notes::default(),
         }
     }
@@ -97,6 +102,11 @@ impl Draft {
     /// When there is nothing to be placed at all, and when the coordinates do not belong to the
     /// reference system.
     pub fn finish(mut self) -> Result<City, CityError> {
+        // What is wrong with the whole comes before what is wrong with single buildings because of it.
+        let wrong = [self.names.missing(), degrees::taken_for_metres(&self)];
+        for message in wrong.into_iter().flatten() {
+            self.notes.add_first("city", message);
+        }
         let Some(centre) = self.centre() else {
             for draft in self.buildings.iter().chain(&self.parts) {
                 (self.notes).add(&draft.place, "outline without corners on the map: left out");

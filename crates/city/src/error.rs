@@ -78,6 +78,17 @@ pub enum CityError {
         /// The reference system of the city.
         crs: String,
     },
+    /// An added model that is to stand on the ground where there is none.
+    #[error(
+        "there is no ground at the origin of the model, {x}, {y}, beside the heights or in a hole of them: give its \
+         height as well (--context-origin E,N,H)"
+    )]
+    ModelWithoutGround {
+        /// First coordinate.
+        x: f64,
+        /// Second coordinate.
+        y: f64,
+    },
     /// More than can be numbered.
     #[error("more than {limit} {what}")]
     TooMany {

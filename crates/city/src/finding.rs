@@ -75,6 +75,19 @@ impl Notes {
         }
     }
 
+    /// Takes note of something that is told before all that was met so far, as it may be the cause of that.
+    pub fn add_first(&mut self, place: &str, message: impl Into<String>) {
+        for index in self.places.values_mut() {
+            *index += 1;
+        }
+        let finding = Finding {
+            place: place.to_owned(),
+            message: message.into(),
+            count: 1,
+        };
+        self.found.insert(0, finding);
+    }
+
     /// The findings in the order in which they were met.
     #[must_use]
     pub fn into_findings(self) -> Vec<Finding> {

@@ -8,9 +8,11 @@
 //! `"12,5"`. A comma followed by three digits could be that of thousands as well and is refused.
 //! Heights above 0 up to [`TALLEST`] metres are believed; all others are findings.
 
+mod names;
 mod text;
 
 use crate::finding::Notes;
+pub use names::Names;
 use text::metres_told;
 
 /// Metres of one level (storey).
@@ -209,7 +211,10 @@ impl Heights {
                 Some(metres)
             }
             (None, None) => {
-                notes.add(place, "no usable height: left out");
+                notes.add(
+                    place,
+                    "no usable height: left out (--default-height gives one)",
+                );
                 None
             }
         }
@@ -361,7 +366,10 @@ mod tests {
         assert_eq!(told.unwrap().height, 3.048);
         let (told, notes) = read(&named, &[("height", Value::Number(9.0))]);
         assert_eq!(told, None);
-        assert_eq!(notes, ["feature 0: no usable height: left out"]);
+        assert_eq!(
+            notes,
+            ["feature 0: no usable height: left out (--default-height gives one)"]
+        );
         let named = Heights {
             default: Some(9.0),
             ..named
@@ -395,7 +403,13 @@ mod tests {
         ] {
             let (found, notes) = read(&Heights::default(), &[("height", value)]);
             assert_eq!(found, None);
-            assert_eq!(notes, [told, "feature 0: no usable height: left out"]);
+            assert_eq!(
+                notes,
+                [
+                    told,
+                    "feature 0: no usable height: left out (--default-height gives one)"
+                ]
+            );
         }
     }
 

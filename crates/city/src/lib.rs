@@ -55,6 +55,7 @@ mod triangulate;
 
 pub use building::{Building, Face, Faces, Part, Prism, Surface};
 pub use city::City;
+pub use context::Base;
 pub use crs::Crs;
 pub use draft::{Draft, DraftBuilding, DraftFace, DraftPart};
 pub use error::CityError;

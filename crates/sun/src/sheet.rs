@@ -77,7 +77,7 @@ impl Sheet {
             .collect()
     }
 
-    /// The arcs, in order.
+    /// The arcs, in order: one at least.
     #[must_use]
     pub fn arcs(&self) -> &[Arc] {
         &self.arcs

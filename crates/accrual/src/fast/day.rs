@@ -13,9 +13,14 @@ pub(super) struct Day<'a> {
 impl<'a> Day<'a> {
     /// `None` if it does not count.
     pub(super) fn new(sheets: &'a [Sheet]) -> Option<Self> {
-        let lasting = sheets.iter().filter(|sheet| !sheet.arcs().is_empty());
-        let seconds: f64 = lasting.map(|sheet| sheet.span().seconds()).sum();
+        let seconds: f64 = sheets.iter().map(|sheet| sheet.span().seconds()).sum();
         (seconds > 0.0).then_some(Self { sheets, seconds })
+    }
+
+    /// When it begins, in seconds as [`Instant`](ombra_sun::Instant) counts them.
+    fn start(&self) -> f64 {
+        let starts = self.sheets.iter().map(|sheet| sheet.span().start.seconds());
+        starts.fold(f64::INFINITY, f64::min)
     }
 
     /// The sine of the angle between the sun's way and the plane in which it goes about the pole at an equinox, up to
@@ -23,8 +28,7 @@ impl<'a> Day<'a> {
     fn declination(&self) -> f64 {
         let lasting = |sheet: &&Sheet| sheet.span().seconds();
         let longest = |a: &&Sheet, b: &&Sheet| lasting(a).total_cmp(&lasting(b));
-        let sheets = self.sheets.iter().filter(|sheet| !sheet.arcs().is_empty());
-        let Some(sheet) = sheets.max_by(longest) else {
+        let Some(sheet) = self.sheets.iter().max_by(longest) else {
             return 0.0;
         };
         let arcs = sheet.arcs();
@@ -89,14 +93,15 @@ impl Taken {
 /// sun's way on any other day lies between what is on the one before and the one after: but for
 /// what hangs in the air, a higher sun throws less shadow in each direction.
 pub(super) fn turning(days: &[Day<'_>]) -> Vec<usize> {
-    /// Nearer to one another than this the sun does not turn: it was rounding.
-    const APART: usize = 60;
+    /// Nearer to one another than this the sun does not turn, in seconds: it was rounding.
+    const APART: f64 = 60.0 * 86_400.0;
+    let apart = |a: usize, b: usize| days[b].start() - days[a].start();
     let declination: Vec<f64> = days.iter().map(Day::declination).collect();
     let mut turning = vec![0];
     for (k, near) in declination.windows(3).enumerate() {
         let is_turn = (near[1] - near[0]) * (near[2] - near[1]) <= 0.0;
         let is_first = turning.len() == 1;
-        if is_turn && (is_first || k + 1 - turning[turning.len() - 1] > APART) {
+        if is_turn && (is_first || apart(turning[turning.len() - 1], k + 1) > APART) {
             turning.push(k + 1);
         }
     }

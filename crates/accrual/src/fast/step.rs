@@ -22,10 +22,7 @@ pub(super) struct Step<'a> {
 impl<'a> Step<'a> {
     pub(super) fn new(occluders: &'a Occluders, days: &[Day<'_>], taken: Vec<Taken>) -> Self {
         let sheets = taken.iter().map(|own| days[own.day].sheets).enumerate();
-        let sheets = sheets.flat_map(|(k, sheets)| {
-            let lasting = sheets.iter().filter(|sheet| !sheet.arcs().is_empty());
-            lasting.map(move |sheet| (sheet.clone(), k))
-        });
+        let sheets = sheets.flat_map(|(k, sheets)| sheets.iter().map(move |own| (own.clone(), k)));
         let (sheets, day_of): (Vec<Sheet>, Vec<usize>) = sheets.unzip();
         Self {
             exact: Exact::new(occluders, &sheets),

@@ -100,6 +100,7 @@ pub(super) unsafe fn polygon<P: Lanes, K: Keep>(
     if !is_needed {
         return;
     }
+    const { assert!(P::COUNT == PLACES) }
     // SAFETY: the caller's promise.
     unsafe {
         let zero = P::splat(0.0);
@@ -220,7 +221,11 @@ unsafe fn one_arc<P: Lanes, K: Keep>(
             let square = slope.times(slope).plus(P::splat(4.0).times(bulge).times(a));
             let root = square.larger(zero).root();
             let signed = zero.minus(root).or_where_not(enters, root);
-            let u = a.plus(a).over(signed.minus(slope));
+            // Two forms of one root: of the sums that are divided the one that does not cancel.
+            let alike = zero.below(signed.times(slope));
+            let above = slope.plus(signed).or_where_not(alike, a.plus(a));
+            let below = bulge.plus(bulge).or_where_not(alike, signed.minus(slope));
+            let u = above.over(below);
             let later = u.larger(begin);
             begin = later.or_where_not(crosses.and(enters), begin);
             let sooner = u.smaller(end);
@@ -307,5 +312,81 @@ unsafe fn graze<P: Lanes, K: Keep>(
             keep.stretch(arc, place, begin, end);
             cover.add(arc, place, begin, end);
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lanes::{Pair, Portable};
+    use super::*;
+
+    type Sixteen = Pair<Portable>;
+
+    /// A way of one arc that bulges by one along x.
+    fn way() -> Way {
+        Way {
+            knots: vec![[0.0, 1.0, 0.0]; 2],
+            bulges: vec![[1.0, 0.0, 0.0]],
+            seconds: vec![1200.0],
+            sag: 0.25,
+            flat: vec![0.0; 2],
+            turns: vec![0.0; 2],
+            is_clockwise: true,
+        }
+    }
+
+    #[test]
+    fn an_edge_covers_what_the_plain_way_says() {
+        let way = way();
+        let mut seed = 1_u32;
+        let mut random = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 24) as f32
+        };
+        let (mut partly, mut tiny) = (0, 0);
+        for _ in 0..20_000 {
+            // Of any size, so that the sun may begin nearly on the plane, and run nearly along it.
+            let mut size = || {
+                let sign = if random() < 0.5 { -1.0 } else { 1.0 };
+                sign * 10_f32.powf(-10.0 * random())
+            };
+            let [from, to, bulge] = [(); 3].map(|()| size());
+            let outer = Side { from, to, bulge };
+            let always = Side {
+                from: 2.0,
+                to: 2.0,
+                bulge: 0.0,
+            };
+            let sides = [outer, always, always, always];
+            let mut plainly = Cover::new();
+            plainly.clear(1);
+            covered(&sides, |from, to| plainly.add(0, 0, from, to));
+            let mut found = Cover::new();
+            found.clear(1);
+            // SAFETY: every processor has these instructions; there is one arc.
+            unsafe {
+                let splat = |x: f32| Sixteen::splat(x);
+                let planes = sides.map(|side| [splat(side.bulge), splat(0.0), splat(0.0)]);
+                let near = sides.map(|side| splat(0.25 * side.bulge.abs()));
+                let [from, to] = [sides.map(|s| splat(s.from)), sides.map(|s| splat(s.to))];
+                let all = splat(0.0).below(splat(1.0));
+                one_arc(&planes, &near, from, to, all, &way, 0, &mut found);
+            }
+            let share = |cover: &Cover| {
+                let mut seconds = [0.0; PLACES];
+                cover.add_seconds(&way.seconds, &mut seconds);
+                seconds
+            };
+            let (found, plainly) = (share(&found), share(&plainly)[0]);
+            for seconds in found {
+                assert!(
+                    (seconds - plainly).abs() < 0.01,
+                    "{outer:?}: {seconds} and plainly {plainly}"
+                );
+            }
+            partly += usize::from(plainly > 0.1 && plainly < 1199.9);
+            tiny += usize::from(outer.from.abs() < 1e-6 && plainly > 0.1 && plainly < 1199.9);
+        }
+        assert!(partly > 5000 && tiny > 1000, "{partly} {tiny}");
     }
 }

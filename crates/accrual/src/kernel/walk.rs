@@ -151,6 +151,7 @@ impl<N: Lanes> Around<N> {
         full: u64,
         waiting: &mut Vec<Waiting>,
     ) {
+        const { assert!(N::COUNT == 8) }
         let (mut from, mut to) = ([0.0_f32; 8], [0.0_f32; 8]);
         let (mut steep, mut distance) = ([0.0_f32; 8], [0.0_f32; 8]);
         // SAFETY: the caller's promise; a node has eight boxes.

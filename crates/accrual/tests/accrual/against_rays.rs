@@ -2,16 +2,21 @@
 
 use ombra_accrual::{Exact, Occluders, Sampled, Samples};
 use ombra_geometry::Point3;
+use ombra_sun::{Place, Refraction, Sky};
 
 use crate::solids::{city, four_days, sheets, sky, spans};
 
 #[test]
 fn a_day_is_exact_to_a_tenth_of_a_second() {
     let mut errors = Vec::new();
-    for (seed, latitude) in [(11, 40.7), (12, -33.9), (13, 60.2)] {
+    for (seed, latitude, refraction) in [
+        (11, 40.7, Refraction::None),
+        (12, -33.9, Refraction::SEA),
+        (13, 60.2, Refraction::None),
+    ] {
         let (facets, places) = city(seed, 90);
         let (occluders, rays) = (Occluders::new(&facets), Sampled::new(&facets));
-        let sky = sky(latitude);
+        let sky = Sky::new(Place::new(latitude, 0.0, 0.0).unwrap(), refraction).unwrap();
         for day in four_days() {
             let spans = spans(&sky, &[day]);
             let sheets = sheets(&sky, &spans);

@@ -125,7 +125,7 @@ fn the_number_of_threads_changes_no_bit() {
 }
 
 #[test]
-fn what_is_looked_at_together_changes_no_bit() {
+fn what_is_looked_at_together_changes_nothing() {
     let (facets, _) = city(7, 60);
     let occluders = Occluders::new(&facets);
     // Tiles of neighbours, and days that come one after another: both share their walks.

@@ -11,6 +11,9 @@ const STRAIGHT: f64 = 500.0;
 /// Into so many pieces at most.
 const MOST_PIECES: f64 = 1000.0;
 
+/// Sides with all their pieces, at most: 700 MB. No area has so many, but a hostile ring of far corners would.
+const MOST_SIDES: usize = 1 << 24;
+
 /// Strips of an area may list so many sides each, on average.
 const MOST_PER_SIDE: usize = 8;
 
@@ -55,8 +58,10 @@ pub enum StudyError {
     /// Nothing is enclosed.
     #[error("encloses nothing: a ring needs three corners that do not lie on one line")]
     Empty,
-    /// More sides than can be numbered.
-    #[error("more than 268435456 sides")]
+    /// More sides than memory is spent on.
+    #[error(
+        "more than {MOST_SIDES} sides, those longer than {STRAIGHT} m counted for each {STRAIGHT} m"
+    )]
     Large,
 }
 
@@ -71,7 +76,7 @@ impl StudyArea {
         crs: &Crs,
         polygons: &[Vec<Vec<[f64; 2]>>],
     ) -> Result<Self, StudyError> {
-        let mut sides = Vec::new();
+        let (mut sides, mut count) = (Vec::new(), 0_usize);
         let origin = origin.on_map(crs.clone());
         for (index, rings) in polygons.iter().enumerate() {
             let local = |[x, y]: [f64; 2]| {
@@ -88,12 +93,18 @@ impl StudyArea {
                     .then_some(local)
                     .ok_or_else(outside)
             };
+            // Counted before any is made.
+            for (a, b) in rings.iter().flat_map(|ring| edges(ring.iter().copied())) {
+                count += pieces(local(a)?, local(b)?) as usize;
+                if count > MOST_SIDES {
+                    return Err(StudyError::Large);
+                }
+            }
             for ring in rings {
                 for (a, b) in edges(ring.iter().copied()).filter(|(a, b)| a != b) {
                     let mut from = local(a)?;
                     let to = local(b)?;
-                    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-                    let pieces = (length / STRAIGHT).ceil().clamp(1.0, MOST_PIECES);
+                    let pieces = pieces(from, to);
                     for piece in 1..=pieces as u32 {
                         let u = f64::from(piece) / pieces;
                         let next = local([0, 1].map(|k| a[k] + u * (b[k] - a[k])))?;
@@ -101,9 +112,6 @@ impl StudyArea {
                         from = next;
                     }
                 }
-            }
-            if sides.len() > 1 << 28 {
-                return Err(StudyError::Large);
             }
         }
         // What lies level is never crossed by a ray to the east.
@@ -204,6 +212,12 @@ impl StudyArea {
         }
         is_in
     }
+}
+
+/// Into how many pieces a side is cut: at least one.
+fn pieces(from: [f64; 2], to: [f64; 2]) -> f64 {
+    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+    (length / STRAIGHT).ceil().clamp(1.0, MOST_PIECES)
 }
 
 impl Side {

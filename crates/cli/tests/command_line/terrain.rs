@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::{fail, outside_data, succeed};
+use crate::{fail, outside_data, run, succeed};
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let all = [&["shadows"], arguments, &["--json", "--quiet"]].concat();
@@ -161,6 +161,169 @@ fn terrain_and_models_cast_shadow_on_a_city() {
         "500041,5800025,-25",
     ];
     assert!((mean(&deep) - flat).abs() < 0.5);
+}
+
+#[test]
+fn neither_a_hill_nor_a_far_model_is_the_city() {
+    let folder = tempfile::tempdir().unwrap();
+    house(&folder.path().join("house.geojson"));
+    height_field(&folder.path().join("hill.tif"), |c, r| {
+        if c < 4 && r < 4 { 390.0 } else { 300.0 }
+    });
+    std::fs::write(
+        folder.path().join("mast.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 0 200\nf 1 2 3\n",
+    )
+    .unwrap();
+    let area = "500038,5800038,500044,5800044";
+    let base = [
+        "house.geojson",
+        DAY[0],
+        DAY[1],
+        "--area",
+        area,
+        "--on",
+        "roofs",
+    ];
+    let around = |more: &[&str]| {
+        let told = json(folder.path(), &[&base, more].concat());
+        let around = &told["surroundings"];
+        [
+            "tallest",
+            "margin",
+            "uncertain_below",
+            "uncertain_share",
+            "lowest_sun",
+        ]
+        .map(|name| around[name].as_f64().unwrap())
+    };
+    let near = |a: [f64; 5], b: [f64; 5]| a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 0.1);
+    let alone = around(&[]);
+    let [tallest, margin, below, share, _] = alone;
+    assert!(
+        tallest.abs() < 0.1 && (1.5..4.5).contains(&margin),
+        "{alone:?}"
+    );
+    assert!(below < 1.0 && share < 0.05, "{alone:?}");
+    let hill = around(&["--terrain", "hill.tif"]);
+    assert!(near(hill, alone), "{hill:?} and {alone:?}");
+    let mast = around(&[
+        "--context",
+        "mast.obj",
+        "--context-origin",
+        "502000,5800040",
+    ]);
+    assert!(near(mast, alone), "{mast:?} and {alone:?}");
+
+    // The sun never is so low: nothing, and not minus nothing, of the time.
+    let high = json(
+        folder.path(),
+        &[&base[..], &["--min-altitude", "5"]].concat(),
+    );
+    let share = high["surroundings"]["uncertain_share"].as_f64().unwrap();
+    assert!(share == 0.0 && share.is_sign_positive(), "{share}");
+    // The lower rim of a disc is lower by its radius.
+    let disc = json(
+        folder.path(),
+        &[&base[..], &["--min-altitude", "5", "--disc"]].concat(),
+    );
+    let lowest = |told: &Value| told["surroundings"]["lowest_sun"].as_f64().unwrap();
+    let radius = lowest(&high) - lowest(&disc);
+    assert!((0.26..0.28).contains(&radius), "{radius}");
+    let all = [&["shadows"], &base[..], &["--min-altitude", "5"]].concat();
+    let talk = String::from_utf8(run(folder.path(), &all).stderr).unwrap();
+    assert!(talk.contains(": 1 building, "), "{talk}");
+    assert!(talk.contains("nothing is missing"), "{talk}");
+}
+
+#[test]
+fn points_on_roofs_of_a_surface_model_are_inside_and_models_stand_on_the_bare_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    let tower = |c, r| {
+        if (15..20).contains(&c) && (15..20).contains(&r) {
+            40.0
+        } else {
+            10.0 + c as f32
+        }
+    };
+    height_field(&folder.path().join("dsm.tif"), tower);
+    height_field(&folder.path().join("dem.tif"), |c, _| 10.0 + c as f32);
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("roof.csv", "x,y,z\n500034,5800048,3\n");
+    write("both.csv", "x,y\n500034,5800048\n500060,5800060\n");
+    write("beside.csv", "x,y\n500034,5800048\n500560,5800060\n");
+    let base = [
+        "dsm.tif",
+        "--terrain",
+        "dem.tif",
+        DAY[0],
+        DAY[1],
+        "--points",
+    ];
+    let told = json(
+        folder.path(),
+        &[&base[..], &["both.csv", "-o", "a.geojson"]].concat(),
+    );
+    assert_eq!((&told["places"], &told["hidden"]), (&1.into(), &1.into()));
+    let text = std::fs::read(folder.path().join("a.geojson")).unwrap();
+    let written: Value = serde_json::from_slice(&text).unwrap();
+    let inside = |k: usize| {
+        written["features"][k]["properties"]["inside"]
+            .as_bool()
+            .unwrap()
+    };
+    assert!(inside(0) && !inside(1), "{written}");
+    assert!(written["features"][0]["properties"]["minutes"].is_null());
+    let told = |name: &str| {
+        fail(
+            folder.path(),
+            &[&["shadows", "--quiet"], &base[..], &[name]].concat(),
+            1,
+        )
+    };
+    let roof = told("roof.csv");
+    assert!(roof.contains("roof.csv: its point lies inside"), "{roof}");
+    assert!(told("beside.csv").contains("beside.csv: line 3"));
+
+    // A floor of 4 m by 4 m, 25 m above its origin, which stands on the tower's pixels: 10 m + 17.5 m of ground. It hangs
+    // above the roof, not 7.5 m below it.
+    write(
+        "floor.obj",
+        "v -2 -2 25\nv 2 -2 25\nv 2 2 25\nv -2 2 25\nf 1 2 3 4\n",
+    );
+    let mean = |origin: &str| {
+        let more = [
+            "both.csv",
+            "--context",
+            "floor.obj",
+            "--context-origin",
+            origin,
+        ];
+        let told = json(folder.path(), &[&base[..], &more].concat());
+        told["minutes_mean"].as_f64().unwrap()
+    };
+    let on_ground = mean("500036,5800046");
+    // The middles of pixels lie 1 m in from their corners.
+    let same = mean("500036,5800046,27.5");
+    assert!((on_ground - same).abs() < 1e-3, "{on_ground} and {same}");
+    let nowhere = [
+        "shadows",
+        "dsm.tif",
+        DAY[0],
+        DAY[1],
+        "--context",
+        "floor.obj",
+        "--context-origin",
+    ];
+    let talk = fail(
+        folder.path(),
+        &[&nowhere[..], &["500500,5800046"]].concat(),
+        1,
+    );
+    assert!(
+        talk.contains("floor.obj: there is no ground") && talk.contains("E,N,H"),
+        "{talk}"
+    );
 }
 
 #[test]

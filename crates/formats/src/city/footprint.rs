@@ -66,6 +66,8 @@ pub(super) fn add(
     closing: Closing,
     options: &CityOptions,
 ) {
+    let names = attributes.keys().map(String::as_str);
+    draft.names.look(&options.heights, names);
     let find = |name: &str| attribute(attributes, name);
     let Some(told) = options.heights.read(find, &place, &mut draft.notes) else {
         return;

@@ -9,11 +9,7 @@ use super::{broken, wrong};
 use crate::error::{Fault, FormatError, shown};
 use crate::limits::Limits;
 
-/// A strip or tile may unpack to so many times its size: what Deflate (RFC 1951) can do, which is the most
-/// of those that are read.
-const MOST_UNPACKED: u64 = 1032;
-
-/// And to so many bytes in all.
+/// A strip or tile may unpack to so many bytes.
 pub(super) const LARGEST_CHUNK: u64 = 2 << 30;
 
 /// How the numbers of a raster lie in its file.
@@ -68,7 +64,7 @@ impl Pixels {
             3 => format!("{bits}-bit floating-point numbers"),
             other => return Err(wrong(format!("sample format {other} is no kind of number"))),
         };
-        let compression = compression(packing)?;
+        let (compression, most) = compression(packing)?;
         let kind = decoder.get_chunk_type();
         let [offsets, lengths] = match kind {
             ChunkType::Strip => [Tag::StripOffsets, Tag::StripByteCounts],
@@ -86,18 +82,13 @@ impl Pixels {
             no_data: no_data(decoder),
             lengths,
         };
-        pixels.check(&offsets, file, packing == 1, bits)?;
+        pixels.check(&offsets, file, most, bits)?;
         Ok(pixels)
     }
 
-    /// That all strips or tiles are there, lie in the file and can hold what they are to hold.
-    fn check(
-        &self,
-        offsets: &[u64],
-        file: u64,
-        is_plain: bool,
-        bits: u64,
-    ) -> Result<(), FormatError> {
+    /// That all strips or tiles are there, lie in the file and can hold what they are to hold, if one unpacks to
+    /// `most` times its size.
+    fn check(&self, offsets: &[u64], file: u64, most: u64, bits: u64) -> Result<(), FormatError> {
         let name = self.name();
         let [across, down] = self.chunks();
         let count = across * down;
@@ -118,7 +109,6 @@ impl Pixels {
             }
             let [width, height] = self.data_of(index as u64).map(u64::from);
             let needed = width * height * bits.div_ceil(8);
-            let most = if is_plain { 1 } else { MOST_UNPACKED };
             if needed > LARGEST_CHUNK {
                 return Err(wrong(format!(
                     "{name} {index} would take {needed} bytes, over the limit of {LARGEST_CHUNK}"
@@ -241,13 +231,17 @@ impl Pixels {
     }
 }
 
-fn compression(code: u64) -> Result<&'static str, FormatError> {
+/// The name of a compression, and how many times its size a strip or tile can unpack to at most.
+fn compression(code: u64) -> Result<(&'static str, u64), FormatError> {
     let known = u16::try_from(code).map(CompressionMethod::from_u16_exhaustive);
     Ok(match known {
-        Ok(CompressionMethod::None) => "none",
-        Ok(CompressionMethod::LZW) => "LZW",
-        Ok(CompressionMethod::Deflate | CompressionMethod::OldDeflate) => "Deflate",
-        Ok(CompressionMethod::PackBits) => "PackBits",
+        Ok(CompressionMethod::None) => ("none", 1),
+        // The 3837 strings of a full table, one byte longer each, in codes of 9 to 12 bits: 1363 times.
+        Ok(CompressionMethod::LZW) => ("LZW", 1400),
+        // 258 bytes from two codes of one bit each (RFC 1951).
+        Ok(CompressionMethod::Deflate | CompressionMethod::OldDeflate) => ("Deflate", 1032),
+        // 128 bytes from two.
+        Ok(CompressionMethod::PackBits) => ("PackBits", 64),
         _ => {
             return Err(wrong(format!(
                 "compression {code} is not read; Deflate, LZW, PackBits and none are"

@@ -114,3 +114,13 @@ fn what_encloses_nothing_is_no_area() {
         "{error}"
     );
 }
+
+#[test]
+fn a_ring_of_very_many_far_corners_is_refused_before_it_fills_the_memory() {
+    let origin = Origin::new(Crs::from_epsg(32633).unwrap(), [500_000.0, 5_800_000.0]).unwrap();
+    let corner = |k: u32| [f64::from(k % 2) * 900_000.0, f64::from(k)];
+    let ring = (0..100_000).map(corner).collect();
+    let error = StudyArea::new(&origin, origin.crs(), &[vec![ring]]).unwrap_err();
+    assert_eq!(error, StudyError::Large);
+    assert!(error.to_string().contains("16777216 sides"), "{error}");
+}

@@ -53,13 +53,17 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
 
-    /// With --method fast: how far off minutes may be, in percent of the time that the sun is up
-    #[arg(long, value_name = "PERCENT", default_value = "0.5", value_parser = tolerance)]
-    pub(crate) tolerance: f64,
+    /// With --method fast: how far off minutes may be, in percent of the time that the sun is up [default: 0.5]
+    #[arg(long, value_name = "PERCENT", value_parser = tolerance)]
+    pub(crate) tolerance: Option<f64>,
 
-    /// With --method sampled: time between samples, 1min, 30s
-    #[arg(long, value_name = "TIME", default_value = "1min", value_parser = step)]
-    pub(crate) step: f64,
+    /// With --method sampled: time between samples, 1min, 30s [default: 1min]
+    #[arg(long, value_name = "TIME", value_parser = step)]
+    pub(crate) step: Option<f64>,
+
+    /// The title of the map [default: the name of the city's file]
+    #[arg(long, value_name = "TEXT", requires = "png")]
+    pub(crate) title: Option<String>,
 
     /// Go on where a run with the same output was interrupted or ended: what it had done lies in OUT.partial
     #[arg(long)]
@@ -81,15 +85,39 @@ pub(crate) struct ShadowsArgs {
 impl ShadowsArgs {
     /// Seconds between samples, if there are any.
     pub(crate) fn samples_step(&self) -> Option<f64> {
-        (self.method == Method::Sampled).then_some(self.step)
+        (self.method == Method::Sampled).then(|| self.step())
+    }
+
+    fn step(&self) -> f64 {
+        self.step.unwrap_or(60.0)
+    }
+
+    /// With how much error fast minutes are content, in percent of the time that the sun is up.
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance.unwrap_or(0.5)
+    }
+
+    /// The files that are read.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = &Path> {
+        let PlacesArgs { study, points, .. } = &self.places;
+        let SurroundingsArgs {
+            terrain, context, ..
+        } = &self.surroundings;
+        let files = [study, points, terrain]
+            .into_iter()
+            .flatten()
+            .chain(context);
+        [Path::new(&self.city)]
+            .into_iter()
+            .chain(files.map(PathBuf::as_path))
     }
 
     /// All that the minutes depend on beside city, places and time.
     pub(crate) fn method_text(&self) -> String {
         match self.method {
             Method::Exact => Method::Exact.name().to_owned(),
-            Method::Fast => format!("{}, to {} %", Method::Fast.name(), self.tolerance),
-            Method::Sampled => format!("{}, each {} s", Method::Sampled.name(), self.step),
+            Method::Fast => format!("{}, to {} %", Method::Fast.name(), self.tolerance()),
+            Method::Sampled => format!("{}, each {} s", Method::Sampled.name(), self.step()),
         }
     }
 }
@@ -152,7 +180,7 @@ pub(crate) struct WhenArgs {
     #[arg(long, value_name = "HOURS", value_parser = hours)]
     pub(crate) hours: Option<Said<Vec<Window>>>,
 
-    /// Only these hours of true solar time: 08:00-16:00, or several with commas
+    /// Only these hours of true solar time: 08:00-16:00, or several with commas; with --hours, what either of them names
     #[arg(long, value_name = "HOURS", value_parser = hours)]
     pub(crate) solar_time: Option<Said<Vec<Window>>>,
 
@@ -266,7 +294,7 @@ pub(super) fn cell(text: &str) -> Result<f64, String> {
     }
 }
 
-fn metres(text: &str) -> Result<f64, String> {
+pub(super) fn metres(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('m').trim_end();
     match number.parse::<f64>() {
         Ok(metres) if metres > 0.0 && metres.is_finite() => Ok(metres),

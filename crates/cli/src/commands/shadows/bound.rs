@@ -10,6 +10,10 @@ use super::places::PlacesArgs;
 use super::wrong_usage;
 use crate::commands::Talk;
 
+/// An area may lie so far beside the city, in metres: farther off there is no shadow worth the name, and the area is
+/// a mistake, such as latitude before longitude.
+const BESIDE: f64 = 5_000.0;
+
 /// Where places may lie.
 pub(super) enum Bound {
     Nothing,
@@ -26,7 +30,18 @@ impl Bound {
         talk: &Talk,
     ) -> anyhow::Result<Self> {
         if let Some(area) = args.area {
-            return Ok(Self::Box(area_box(area, origin)));
+            let within = area_box(area, origin);
+            if is_apart(within, all.widened(BESIDE)) {
+                bail!(
+                    "--area: lies outside of the city; its coordinates are taken for those of {} (west, south, east, \
+                     north)",
+                    origin.crs().name()
+                );
+            }
+            return Ok(Self::Box(within));
+        }
+        if let Some(margin) = args.margin {
+            return Ok(Self::Box(all.widened(margin)));
         }
         let Some(path) = &args.study else {
             return Ok(Self::Nothing);
@@ -38,7 +53,7 @@ impl Bound {
         let study = StudyArea::new(origin, &file.crs, &file.polygons)
             .with_context(|| path.display().to_string())?;
         let [low, high] = study.bounds();
-        if (0..2).any(|k| high[k] < all.low[k] || all.high[k] < low[k]) {
+        if is_apart(Extent { low, high }, all) {
             bail!(
                 "{}: lies outside of the city; its coordinates are taken for those of {}",
                 path.display(),
@@ -57,6 +72,10 @@ impl Bound {
             Self::Study(study) => study.contains(place),
         }
     }
+}
+
+fn is_apart(a: Extent, b: Extent) -> bool {
+    (0..2).any(|k| a.high[k] < b.low[k] || b.high[k] < a.low[k])
 }
 
 /// Around all that throws shadow.

@@ -54,9 +54,12 @@ pub(super) struct SomeDays {
     pub(super) days: usize,
     /// What came of comparing them with every day.
     pub(super) compared: Compared,
-    /// At how many places every day was measured in this run.
+    /// At how many places more days were measured, or every day, in this run.
     pub(super) refined: usize,
 }
+
+/// Tiles are measured in blocks of so many.
+const BLOCK: usize = 64;
 
 /// How long a part should take, in seconds: between parts progress is shown.
 const PART: f64 = 0.1;
@@ -89,7 +92,7 @@ pub(super) fn measure(
         Method::Fast => {
             let occluders = cpu.install(|| Occluders::new(facets));
             let is_wanted = || !stop.load(Ordering::Relaxed);
-            let tolerance = args.tolerance / 100.0;
+            let tolerance = args.tolerance() / 100.0;
             let days = cpu.install(|| when.sheets());
             let fast = cpu.install(|| Fast::new(&occluders, &days, tiles, tolerance, is_wanted));
             let built = begun.elapsed().as_secs_f64();
@@ -109,7 +112,12 @@ pub(super) fn measure(
         }
         Method::Sampled => {
             let sampled = cpu.install(|| Sampled::new(facets));
-            let samples = cpu.install(|| when.samples(args.step));
+            let samples = cpu.install(|| {
+                when.samples(
+                    args.samples_step()
+                        .expect("there is a step where there are samples"),
+                )
+            });
             let part = |which| {
                 let places = &tiles.places()[tiles.range(which)];
                 cpu.install(|| {
@@ -156,7 +164,7 @@ fn in_parts(
     let resumed = minutes.len();
     let begun = Instant::now();
     let mut tile = tiles.before(resumed);
-    let mut count = 64;
+    let mut count = BLOCK;
     while tile < tiles.len() && !stop.load(Ordering::Relaxed) {
         let begun = Instant::now();
         let end = tiles.len().min(tile + count);
@@ -166,9 +174,10 @@ fn in_parts(
                 .map(|seconds| (seconds / each_minute) as f32),
         );
         tile = end;
-        // So many that a part takes about as long as it should.
+        // So many that a part takes about as long as it should. In whole blocks: then the same tiles are always looked
+        // at together, however long a part took.
         let faster = PART / begun.elapsed().as_secs_f64().max(1e-6);
-        count = ((count as f64 * faster.clamp(0.5, 4.0)) as usize).max(64);
+        count = ((count as f64 * faster.clamp(0.5, 4.0)) as usize / BLOCK).max(1) * BLOCK;
         if let Some((partial, _)) = kept {
             partial.keep_sometimes(&minutes);
         }

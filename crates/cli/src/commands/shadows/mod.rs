@@ -13,7 +13,7 @@ mod site;
 mod when;
 
 use std::io::{self, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,6 +25,7 @@ use ombra::formats::can_write_whole;
 use ombra::pipeline::Cpu;
 use ombra::sun::Place;
 
+use args::Method;
 pub(crate) use args::{OutputKind, ShadowsArgs};
 use measure::{Measured, measure};
 use output::{Statistics, summary};
@@ -51,6 +52,8 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
         wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
     }
     refuse_maps_of_no_grid(args);
+    refuse_what_is_not_used(args);
+    refuse_to_write_what_is_read(args);
     if args.resume && !asks_for_files && !is_tour {
         wrong_usage("--resume goes on with an output: name it, with -o or --png");
     }
@@ -85,6 +88,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
     let when = cpu.install(|| When::new(&args.when, place, args.samples_step()))?;
     let all = cpu.install(|| site.extent());
+    let surface = site.surface();
     let asked = Asked::read(&args.places, site.origin(), all, &talk)?;
     let (places, lowest) = (asked.extent(all), when.lowest_altitude());
     let (city, reach) = cpu.install(|| site.city(places, lowest))?;
@@ -93,15 +97,20 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
     let facets = city.facets();
     let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
-    let around = cpu.install(|| Reach::new(&facets, &places.tiles, &when));
+    let around = cpu.install(|| Reach::new(&facets, surface, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
-        "{}: {} buildings, {}; {} day{}, {:.1} h of sun ({})",
+        "{}: {} building{}, {}; {} day{} ({}), {:.1} h of sun ({})",
         args.city,
         city.buildings.len(),
+        if city.buildings.len() == 1 { "" } else { "s" },
         places.describe(),
         when.days,
         if when.days == 1 { "" } else { "s" },
+        match when.ends_on {
+            [first, last] if first == last => first.to_string(),
+            [first, last] => format!("{first} to {last}"),
+        },
         when.hours(),
         when.zone,
     ));
@@ -169,11 +178,39 @@ fn refuse_maps_of_no_grid(args: &ShadowsArgs) {
         return;
     }
     let is_geotiff = |path: &PathBuf| OutputKind::of(path) == OutputKind::GeoTiff;
+    if args.places.margin.is_some() {
+        wrong_usage("--margin is for the map of the ground");
+    }
     if args.png.is_some() || args.output.as_ref().is_some_and(is_geotiff) {
         wrong_usage(
             "a map (--png, .tif) is of the grid over the ground; places on roofs and facades and points are written \
              with -o as .geojson or .parquet",
         );
+    }
+}
+
+fn refuse_what_is_not_used(args: &ShadowsArgs) {
+    if args.tolerance.is_some() && args.method != Method::Fast {
+        wrong_usage("--tolerance is for --method fast");
+    }
+    if args.step.is_some() && args.method != Method::Sampled {
+        wrong_usage("--step is for --method sampled");
+    }
+}
+
+/// No output may be one of the files that are read, by whatever name.
+fn refuse_to_write_what_is_read(args: &ShadowsArgs) {
+    let same = |a: &Path, b: &Path| {
+        let [a, b] = [a, b].map(std::fs::canonicalize);
+        a.is_ok_and(|a| b.is_ok_and(|b| a == b))
+    };
+    for output in [&args.output, &args.png].into_iter().flatten() {
+        if args.inputs().any(|input| same(input, output)) {
+            wrong_usage(&format!(
+                "{}: is a file that is read; write to another one",
+                output.display()
+            ));
+        }
     }
 }
 

@@ -24,6 +24,9 @@ pub(super) struct Statistics<'a> {
     png: Option<&'a Path>,
     method: &'static str,
     when: &'a str,
+    /// The first day and the last.
+    from: String,
+    to: String,
     time_zone: &'a str,
     latitude: f64,
     longitude: f64,
@@ -85,6 +88,8 @@ impl<'a> Statistics<'a> {
             png: args.png.as_deref(),
             method: args.method.name(),
             when: &when.text,
+            from: when.ends_on[0].to_string(),
+            to: when.ends_on[1].to_string(),
             time_zone: &when.zone,
             latitude: city.origin.latitude(),
             longitude: city.origin.longitude(),
@@ -145,30 +150,50 @@ pub(super) fn summary(statistics: &Statistics<'_>) -> String {
     } else {
         format!("{}: ", files.join(", "))
     };
-    let hours = statistics.sun_hours * 60.0;
+    let minutes = statistics.sun_hours * 60.0;
+    let some = statistics.some_days.filter(|some| some.days > 0);
+    let some = some.map_or_else(String::new, |some| {
+        format!(
+            "; {} of {} days stand for all, {:.2} % off at most at {} places",
+            some.days, statistics.days, some.compared.most, some.compared.places
+        )
+    });
     format!(
-        "{kept}{files}{minutes_mean:.1} of {hours:.1} minutes in shadow on average, {minutes_most:.1} at most; \
-         {:.2} s, {:.2} million places a second",
+        "{kept}{files}{minutes_mean:.1} of {minutes:.1} minutes in shadow on average, {minutes_most:.1} at most{some}; \
+         {:.2} s, {places_per_second:.0} places a second",
         build_seconds + seconds,
-        places_per_second / 1e6,
     )
 }
 
 /// What is known of the times, for people.
 fn bound(args: &ShadowsArgs, when: &When, measured: &Measured) -> String {
     let sun = when.sun();
-    let exact = "exact in time, a day to 1 s and to 0.05 s in the mean";
+    let exact = "exact in time: within 1 s a day, 0.05 s on average";
     match (args.method, measured.some_days) {
         (Method::Fast, Some(some)) if some.days > 0 => format!(
             "{} of {} days stand for all, within {} % of the time that the sun is up (at {} places compared with every \
-             day, {:.2} % at most); for a sun that is {sun}",
-            some.days, when.days, args.tolerance, some.compared.places, some.compared.most
+             day, {:.2} % at most); the sun is {sun}",
+            some.days,
+            when.days,
+            args.tolerance(),
+            some.compared.places,
+            some.compared.most
         ),
-        (Method::Exact | Method::Fast, _) => format!("{exact}, for a sun that is {sun}"),
+        (Method::Exact | Method::Fast, _) => format!("{exact}; the sun is {sun}"),
         (Method::Sampled, _) => {
-            format!("one sample every {} s, for a sun that is {sun}", args.step)
+            let step = args.samples_step().unwrap_or_default();
+            format!("one sample every {step} s; the sun is {sun}")
         }
     }
+}
+
+/// How much of the places was measured, if not all.
+fn share(measured: &Measured) -> Option<String> {
+    let (done, all) = (measured.done, measured.minutes.len());
+    (done < all).then(|| {
+        let percent = 100.0 * done as f64 / all as f64;
+        format!("interrupted, {percent:.1} % of the places are measured")
+    })
 }
 
 pub(super) fn write(
@@ -201,14 +226,22 @@ pub(super) fn write(
             || args.city.clone(),
             |stem| stem.to_string_lossy().into_owned(),
         );
+        let title = || format!("Shadow: {name}");
+        let share = share(measured).map_or_else(String::new, |share| format!("{share}; "));
         let style = MapStyle {
-            title: format!("Shadow: {name}"),
+            title: args.title.clone().unwrap_or_else(title),
             subtitle: format!("{} ({})", when.text, when.zone),
             footer: format!(
-                "ombra {}; {}",
+                "{share}ombra {}; {}",
                 env!("CARGO_PKG_VERSION"),
                 bound(args, when, measured)
             ),
+            outside: places.outside(city, measured.done),
+            outside_name: if share.is_empty() {
+                "Outside of the study area".to_owned()
+            } else {
+                "Not measured".to_owned()
+            },
             // Of a season nobody counts minutes.
             unit: if when.days > 2 {
                 Unit::Hours
@@ -232,9 +265,9 @@ pub(super) fn write(
 }
 
 /// What says how the numbers came about.
-fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> [(String, String); 10] {
+fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> Vec<(String, String)> {
     let entry = |key: &str, value: String| (key.to_owned(), value);
-    [
+    let mut entries = vec![
         entry("command", command()),
         entry(
             "version",
@@ -248,5 +281,7 @@ fn metadata(args: &ShadowsArgs, when: &When, measured: &Measured) -> [(String, S
         entry("method", args.method.name().to_owned()),
         entry("bound", bound(args, when, measured)),
         entry("unit", "minutes in shadow".to_owned()),
-    ]
+    ];
+    entries.extend(share(measured).map(|share| entry("measured", share)));
+    entries
 }

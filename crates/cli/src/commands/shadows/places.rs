@@ -1,5 +1,6 @@
 //! Where shadow is measured: what may be asked, and the places that come of it.
 
+use std::cell::LazyCell;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
@@ -31,6 +32,10 @@ pub(crate) struct PlacesArgs {
     /// throws shadow into it
     #[arg(long, value_name = "W,S,E,N", value_parser = area, allow_hyphen_values = true, conflicts_with_all = ["study", "points"])]
     pub(crate) area: Option<[f64; 4]>,
+
+    /// How far the map of the ground goes beyond what the file holds, in metres: shadow of what stands at its edge falls there
+    #[arg(long, value_name = "METRES", value_parser = super::args::metres, conflicts_with_all = ["area", "study", "points"])]
+    pub(crate) margin: Option<f64>,
 
     /// Only within the polygons of this file (GeoJSON); all that stands in the city's file throws shadow into them
     #[arg(long, value_name = "FILE", conflicts_with = "points")]
@@ -85,11 +90,20 @@ pub(super) enum Kind {
     Points {
         file: PointFile,
         at: Vec<Point3>,
-        /// The building that each lies in.
-        inside: Vec<Option<u32>>,
-        /// Which of them lie in none.
+        /// What each lies in.
+        inside: Vec<Option<Within>>,
+        /// Which of them lie in nothing.
         outside: Vec<u32>,
     },
+}
+
+/// What a point lies in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Within {
+    /// This building.
+    Building(u32),
+    /// What stands on the ground of a surface model, which has no buildings.
+    Raised,
 }
 
 /// Where places were asked for, before it is known what stands around them.
@@ -171,7 +185,14 @@ impl Places {
                 )
             }
             Kind::Faces { kind, .. } => format!("there is no free {}{within}", kind.name()),
-            Kind::Points { .. } => "all points lie inside of buildings".to_owned(),
+            Kind::Points { file, .. } => {
+                let name = args.points.as_deref().unwrap_or(Path::new("--points"));
+                let name = name.display();
+                match &file.points[..] {
+                    [_] => format!("{name}: its point lies inside of a building"),
+                    all => format!("{name}: all {} points lie inside of buildings", all.len()),
+                }
+            }
         }
     }
 
@@ -195,6 +216,31 @@ impl Places {
             values[index as usize] = minutes;
         }
         values
+    }
+
+    /// Of the cells of a grid those that lie in no building and are not among the first `done` places: they lie outside of a
+    /// study area, or were not measured. Nothing if there is none.
+    pub(super) fn outside(&self, city: &City, done: usize) -> Vec<bool> {
+        let Kind::Grid { grid, bound } = &self.kind else {
+            return Vec::new();
+        };
+        let mut outside = vec![false; grid.count()];
+        if let Bound::Study(study) = bound {
+            let (ground, inside) = (Ground::new(city), Inside::new(city));
+            for (index, outside) in (0..).zip(&mut outside) {
+                let at = grid.centre(index % grid.width, index / grid.width);
+                let is_free = || ground.at(at).is_none_or(|place| !inside.contains(place));
+                *outside = !study.contains(at) && is_free();
+            }
+        }
+        for &index in &self.tiles.indices()[done..] {
+            outside[index as usize] = true;
+        }
+        if outside.contains(&true) {
+            outside
+        } else {
+            Vec::new()
+        }
     }
 
     /// For people.
@@ -240,6 +286,7 @@ impl Places {
 fn on_ground(args: &PlacesArgs, city: &City, all: Extent, bound: Bound) -> anyhow::Result<Places> {
     let (option, [from, to]) = match &bound {
         Bound::Nothing => ("", [all.low, all.high]),
+        Bound::Box(within) if args.margin.is_some() => ("--margin: ", [within.low, within.high]),
         Bound::Box(within) => ("--area: ", [within.low, within.high]),
         Bound::Study(study) => ("--study: ", study.bounds()),
     };
@@ -313,19 +360,27 @@ fn points(
         ));
     }
     let (ground, inside) = (Ground::new(city), Inside::new(city));
+    // Few files have such points.
+    let raised = LazyCell::new(|| raised(city));
     let stand = |(point, &at): (&Point, &[f64; 2])| {
-        let Some(foot) = ground.at(at) else {
+        if let Some(foot) = ground.at(at) {
+            let at = Point3::new(foot.x, foot.y, foot.z + point.height as f32);
+            return Ok((at, inside.building(at).map(Within::Building)));
+        }
+        let Some(top) = raised.as_ref().and_then(|raised| raised.at(at)) else {
             let ([x, y], place) = (point.at, file.place(point));
             bail!(
                 "{name}: {place}: {x}, {y} lies beside the terrain or in a hole of it: there is no ground to stand on"
             );
         };
-        Ok(Point3::new(foot.x, foot.y, foot.z + point.height as f32))
+        // How high the ground is below a roof or a tree nobody has said here: the point is shown on top.
+        Ok((top, Some(Within::Raised)))
     };
-    let at: Vec<Point3> = (file.points.iter().zip(at))
-        .map(stand)
-        .collect::<anyhow::Result<_>>()?;
-    let inside: Vec<Option<u32>> = at.iter().map(|&at| inside.building(at)).collect();
+    let stood = (file.points.iter().zip(at)).map(stand);
+    let (at, inside): (Vec<Point3>, Vec<Option<Within>>) = stood
+        .collect::<anyhow::Result<Vec<_>>>()?
+        .into_iter()
+        .unzip();
     let outside: Vec<u32> = (0..at.len() as u32)
         .filter(|&index| inside[index as usize].is_none())
         .collect();
@@ -338,6 +393,22 @@ fn points(
             inside,
             outside,
         },
+    })
+}
+
+/// The top of what stands on the ground of a surface model.
+fn raised(city: &City) -> Option<Ground> {
+    let is_surface = city.buildings.is_empty() && city.is_terrain_all;
+    (is_surface && !city.context.is_empty()).then(|| {
+        Ground::new(&City {
+            origin: city.origin.clone(),
+            buildings: Vec::new(),
+            terrain: city.context.clone(),
+            is_terrain_all: true,
+            context: Vec::new(),
+            ground: city.ground,
+            findings: Vec::new(),
+        })
     })
 }
 

@@ -6,7 +6,7 @@ use ombra::formats::places::PlaceRow;
 use ombra::geometry::Point3;
 
 use super::bound::Bound;
-use super::places::{Kind, Places};
+use super::places::{Kind, Places, Within};
 
 /// Calls with all rows in turn: `minutes` are one number a place, NaN where there is none.
 pub(super) fn with_rows<R>(
@@ -73,7 +73,10 @@ pub(super) fn with_rows<R>(
                     position,
                     minutes: known(index),
                     inside: inside[index].is_some(),
-                    building: inside[index].map(building),
+                    building: match inside[index] {
+                        Some(Within::Building(number)) => Some(building(number)),
+                        Some(Within::Raised) | None => None,
+                    },
                     id: point.id.as_deref(),
                     properties: Some(&point.properties),
                     ..PlaceRow::default()

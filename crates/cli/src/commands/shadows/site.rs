@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use ombra::city::{City, CityError, Crs, Extent, Origin, demo_city};
+use ombra::city::{Base, City, CityError, Crs, Extent, Origin, demo_city};
 use ombra::formats::Limits;
 use ombra::formats::city::{CityModel, CityOptions, Up, read_city, read_city_model};
 use ombra::formats::elevation::{Elevation, is_elevation, read_elevation};
@@ -142,6 +142,14 @@ impl<'a> Site<'a> {
         }
     }
 
+    /// Of a surface model: where it lies, and its highest height.
+    pub(super) fn surface(&self) -> Option<(Extent, f32)> {
+        match &self.ground {
+            GroundedOn::City(_) => None,
+            GroundedOn::Surface(surface) => Some((self.extent(), surface.field.range()[1])),
+        }
+    }
+
     /// The city with all that is around the places, as far as shadows reach while the sun stands at
     /// least so high, in radians; and how far that is, in metres.
     pub(super) fn city(self, places: Extent, altitude: f64) -> anyhow::Result<(City, f64)> {
@@ -156,29 +164,34 @@ impl<'a> Site<'a> {
             .unwrap_or(Path::new(""));
         let of_terrain = |error: &CityError| of_file(&terrain_name.display().to_string(), error);
         let mut findings = Vec::new();
+        let mut surface = None;
         let mut city = match self.ground {
             GroundedOn::City(mut city) => {
-                if let Some(terrain) = terrain {
+                if let Some(terrain) = &terrain {
                     (city.stand_on(&terrain.field, extent)).map_err(|error| of_terrain(&error))?;
-                    findings = terrain.findings;
                 }
                 *city
             }
-            GroundedOn::Surface(surface) => {
+            GroundedOn::Surface(mut found) => {
                 let below = terrain.as_ref().map(|terrain| &terrain.field);
-                let city = City::of_surface(&surface.field, below, extent);
-                findings.extend(surface.findings);
-                findings.extend(terrain.into_iter().flat_map(|terrain| terrain.findings));
+                let city = City::of_surface(&found.field, below, extent);
+                findings.append(&mut found.findings);
+                surface = Some(found.field);
                 city.map_err(|error| of_file(name, &error))?
             }
         };
+        findings.extend(terrain.iter().flat_map(|terrain| terrain.findings.clone()));
+        // Models stand on the bare ground, and also where no shadow reaches the places, so on all of its heights.
+        let bare = terrain.as_ref().map(|terrain| &terrain.field);
+        let on_ground = bare.or(surface.as_ref()).map_or(Base::Ground, Base::Field);
         city.findings.splice(0..0, findings);
         let origins = &self.args.surroundings.context_origin;
         for (index, (path, model)) in self.models.into_iter().enumerate() {
             let at = origins.get(index).or(origins.first());
             let at = at.expect("clap asks for an origin with a model");
             let file = path.display().to_string();
-            (city.add_model(model.triangles, at.map, at.base))
+            let base = at.base.map_or(on_ground, Base::Height);
+            (city.add_model(model.triangles, at.map, base))
                 .map_err(|error| of_file(&file, &error))?;
             city.findings
                 .extend(model.findings.iter().map(|finding| ombra::city::Finding {

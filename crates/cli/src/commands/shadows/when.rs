@@ -1,6 +1,8 @@
 //! From what was typed to stretches of time and the way of the sun.
 
 use anyhow::bail;
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
 use ombra::accrual::Samples;
 use ombra::sun::{
     Calendar, Days, Disc, Hours, MAX_DAYS, Months, Place, Refraction, Sheet, Sky, Span, SunError,
@@ -25,13 +27,15 @@ pub(super) struct When {
     pub(super) zone: String,
     /// For people: which days and hours.
     pub(super) text: String,
+    /// The first day and the last.
+    pub(super) ends_on: [Date; 2],
 }
 
 impl When {
     /// `step` is that of samples, in seconds, where there are any.
     pub(super) fn new(args: &WhenArgs, place: Place, step: Option<f64>) -> anyhow::Result<Self> {
         let zone = match &args.time_zone {
-            Some(name) => jiff::tz::TimeZone::get(name).unwrap_or_else(|_| {
+            Some(name) => TimeZone::get(name).unwrap_or_else(|_| {
                 wrong_usage(&format!(
                     "--time-zone {name}: no such time zone; one is Europe/Berlin"
                 ))
@@ -86,9 +90,7 @@ impl When {
             ));
         }
         if spans.is_empty() {
-            bail!(
-                "the sun is not up in these hours of these days ({named}): there is no shadow to measure"
-            );
+            bail!("{}", no_sun(&sky, &zone, days.dates(), &text(args, &named)));
         }
         Ok(Self {
             days: by_day.len(),
@@ -101,7 +103,8 @@ impl When {
             spans,
             suns,
             zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
-            text: text(args, &named),
+            text: text(args, &with_ends(&named, days.dates())),
+            ends_on: [days.dates()[0], days.dates()[days.dates().len() - 1]],
         })
     }
 
@@ -179,6 +182,35 @@ fn days(args: &WhenArgs, calendar: &Calendar) -> anyhow::Result<(Days, String)> 
         Ok(days) => Ok((days, named)),
         Err(error) => wrong_usage(&format!("{option} {named}: {error}")),
     }
+}
+
+/// What a name such as "winter 2026" means is said, too.
+fn with_ends(named: &str, dates: &[Date]) -> String {
+    match dates {
+        [first, .., last] if named.contains(char::is_alphabetic) => {
+            format!("{named} ({first} to {last})")
+        }
+        _ => named.to_owned(),
+    }
+}
+
+/// Why there is no shadow to measure.
+fn no_sun(sky: &Sky, zone: &TimeZone, dates: &[Date], asked: &str) -> String {
+    let up = |&date: &Date| Hours::default().spans(sky, zone, date);
+    let spans: Vec<Span> = dates.iter().flat_map(up).collect();
+    if spans.is_empty() {
+        return format!("the sun does not rise ({asked}): there is no shadow to measure");
+    }
+    let altitudes = spans.iter().flat_map(|span| {
+        let (_, middles) = span.middles(600.0);
+        middles.map(|instant| sky.direction(instant)[2].asin().to_degrees())
+    });
+    let highest = altitudes.fold(0.0, f64::max);
+    let hours = spans.iter().map(Span::seconds).sum::<f64>() / 3600.0;
+    format!(
+        "nothing is left of the {hours:.1} h of sun, which stands {highest:.1}° high at most ({asked}): there is no shadow to \
+         measure"
+    )
 }
 
 fn hours(args: &WhenArgs) -> Result<Hours, SunError> {

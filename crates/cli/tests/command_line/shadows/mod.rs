@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+mod asked;
 mod places;
 mod resumed;
 
@@ -64,7 +65,7 @@ fn the_sun_as_a_disc_is_covered_in_part() {
     let apart = (mean(&sampled) - mean(&disc)).abs();
     assert!(apart < 0.5, "{apart}");
     let written = std::fs::read(folder.path().join("disc.tif")).unwrap();
-    let said = b"for a sun that is a disc of 7 points";
+    let said = b"the sun is a disc of 7 points";
     assert!(written.windows(said.len()).any(|bytes| bytes == said));
 }
 
@@ -217,7 +218,10 @@ fn what_fails_is_exit_code_1() {
         "01:00-02:00",
     ];
     let talk = fail(folder.path(), &night, 1);
-    assert!(talk.contains("not up"), "{talk}");
+    assert!(
+        talk.contains("nothing is left of the 9.1 h of sun"),
+        "{talk}"
+    );
 }
 
 #[test]

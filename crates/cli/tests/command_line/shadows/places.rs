@@ -272,6 +272,8 @@ fn what_is_asked_wrongly_of_places_says_so() {
         "metres.json",
         "{\"type\": \"Polygon\", \"coordinates\": [[[84000,447000],[84100,447000],[84000,448000]]]}",
     );
+    write("places.parquet", "PAR1\u{15}\u{0}\u{15}\u{1}");
+    write("hall.csv", "lon,lat\n4.3602,52.00973\n");
     let before = std::fs::read_dir(folder.path()).unwrap().count();
     for (wrong, code, told) in [
         (
@@ -318,6 +320,31 @@ fn what_is_asked_wrongly_of_places_says_so() {
             "84000, 447000 is no place of OGC:CRS84",
         ),
         (&["--study", "far.csv"], 1, "GeoJSON with polygons"),
+        (
+            &["--points", "places.parquet"],
+            1,
+            "unknown kind of file; GeoJSON with points or CSV",
+        ),
+        (
+            &["--study", "places.parquet"],
+            1,
+            "unknown kind of file; GeoJSON",
+        ),
+        (
+            &["--area", "52.0099,4.3599,52.0101,4.3601"],
+            1,
+            "--area: lies outside of the city; its coordinates are taken for those of OGC:CRS84",
+        ),
+        (
+            &["--points", "hall.csv"],
+            1,
+            "hall.csv: its point lies inside of a building",
+        ),
+        (
+            &["--height-attribute", "hoogte"],
+            1,
+            "no building has an attribute \"hoogte\"; heights may be in \"height\", \"min_height\"",
+        ),
     ] {
         let all = [&["shadows", "city.geojson", DAY[0], DAY[1]], wrong].concat();
         let talk = fail(folder.path(), &all, code);

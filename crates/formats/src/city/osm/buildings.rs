@@ -5,9 +5,10 @@ use std::collections::HashSet;
 use ombra_city::{Draft, DraftBuilding, DraftPart};
 
 use super::super::CityOptions;
+use super::courtyards::polygons;
 use super::element::{Kind, Tag, is_of_building, says, value};
 use super::kept::{Kept, Relation, Way};
-use super::rings::{joined, polygons};
+use super::rings::joined;
 use super::room::Room;
 use crate::error::{FormatError, plural};
 
@@ -81,6 +82,10 @@ fn building(
         draft.notes.add(&place, "lies under the ground: left out");
         return;
     }
+    let names = tags.iter().flat_map(|tags| tags.iter());
+    draft
+        .names
+        .look(&options.heights, names.map(|(key, _)| key.as_ref()));
     let find = |name: &str| value(tags[0], name).or_else(|| value(tags[1], name));
     let Some(told) = options.heights.read(find, &place, &mut draft.notes) else {
         return;

@@ -6,6 +6,7 @@
 //! map only what buildings need is ever in memory.
 
 mod buildings;
+mod courtyards;
 mod element;
 mod kept;
 mod pbf;

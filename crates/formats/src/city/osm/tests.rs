@@ -216,7 +216,7 @@ fn check(city: &City) {
             "relation 201: is a member of itself: not followed",
             "relation 201: 1 way is not in the file: its ring is left out",
             "relation 201: has no closed outline: left out",
-            "way 120: no usable height: left out",
+            "way 120: no usable height: left out (--default-height gives one)",
             "way 121: 1 node is not in the file: left out",
             "way 122: outline is not closed: left out",
             "way 123: lies over 60 km off the others: left out",

@@ -3,7 +3,7 @@
 use ombra_city::{Crs, Notes};
 use serde_json::Value;
 
-use super::{Point, PointFile, height_fault};
+use super::{KNOWN, Point, PointFile, height_fault};
 use crate::city::geojson::{Feature, crs_of, each_feature};
 use crate::city::json::{self, Kind};
 use crate::city::wrong;
@@ -11,8 +11,7 @@ use crate::error::{Fault, FormatError, shown};
 
 pub(super) fn read(text: &[u8]) -> Result<PointFile, FormatError> {
     let Kind::GeoJson(kind) = json::kind(text)? else {
-        let known = "GeoJSON with points and tables (CSV) with a line of names";
-        return Err(FormatError::file(Fault::UnknownContent { known }));
+        return Err(FormatError::file(Fault::UnknownContent { known: KNOWN }));
     };
     let (mut notes, mut points, mut fault) = (Notes::default(), Vec::new(), None);
     let mut number = 0;

@@ -13,6 +13,9 @@ use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
 
+/// What can be read, as messages have it.
+const KNOWN: &str = "GeoJSON with points or CSV with a line of names";
+
 /// Points as a file has them, in its order.
 #[derive(Clone, Debug)]
 pub struct PointFile {
@@ -86,6 +89,9 @@ fn of_bytes(bytes: &[u8]) -> Result<PointFile, FormatError> {
         return Err(FormatError::file(Fault::Empty));
     }
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if is_binary(text) {
+        return Err(FormatError::file(Fault::UnknownContent { known: KNOWN }));
+    }
     let file = match text.trim_ascii_start().first() {
         Some(b'{' | b'[') => json::read(text)?,
         _ => table::read(text)?,
@@ -101,6 +107,13 @@ fn of_bytes(bytes: &[u8]) -> Result<PointFile, FormatError> {
         return Err(wrong("points", format!("more than {MAX_PLACES}")));
     }
     Ok(file)
+}
+
+/// Whether the first of it is no text, so that a table would have columns whose names nobody can read.
+fn is_binary(bytes: &[u8]) -> bool {
+    const LOOKED_AT: usize = 1024;
+    let control = |b: &u8| b.is_ascii_control() && !b"\t\r\n".contains(b);
+    bytes.iter().take(LOOKED_AT).any(control)
 }
 
 /// What is wrong with a height above the ground, if anything.

@@ -81,6 +81,10 @@ fn what_is_no_list_of_points_says_where() {
         ("{\"type\": \"CityJSON\"}", "GeoJSON with points"),
         ("[1, 2]", "GeoJSON with points"),
         (
+            "PAR1\u{15}\0\u{15},x,y",
+            "unknown kind of file; GeoJSON with points or CSV",
+        ),
+        (
             "{\"type\": \"Point\", \"coordinates\": [1]}",
             "geometry: a point needs two numbers",
         ),

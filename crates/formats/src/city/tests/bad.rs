@@ -32,7 +32,7 @@ fn files_that_cannot_be_read_say_where_and_why() {
         (
             "null_geometry.geojson",
             "no building that could be placed: feature 0: no geometry: left out; \
-             feature 1: no usable height: left out; feature 2: Point is no polygon: left out; \
+             feature 1: no usable height: left out (--default-height gives one); feature 2: Point is no polygon: left out; \
              feature 3: outline without corners on the map: left out",
         ),
         (
@@ -63,7 +63,7 @@ fn heights_that_cannot_be_are_told_and_left_out() {
         findings(&city),
         [
             "feature 0: height is negative (-30 m)",
-            "feature 0: no usable height: left out (3 times)",
+            "feature 0: no usable height: left out (--default-height gives one) (3 times)",
             "feature 1: height is zero (0 m)",
             "feature 2: height is taller than anything built (1000000000 m)",
         ]
@@ -82,7 +82,7 @@ fn heights_in_words_are_read_or_told_one_by_one() {
         [
             "feature 4: height \"12,5\" has a decimal comma: read as 12.5",
             "feature 5: height \"\" is empty",
-            "feature 5: no usable height: left out (5 times)",
+            "feature 5: no usable height: left out (--default-height gives one) (5 times)",
             "feature 6: height \"tall\" is not a height",
             "feature 8: height is a list, and no number or text",
             "feature 9: height is true or false, and no number or text",

@@ -136,7 +136,7 @@ fn chicago() {
     assert_eq!(
         findings(&city),
         [
-            "relation 1870546: no usable height: left out (865 times)",
+            "relation 1870546: no usable height: left out (--default-height gives one) (865 times)",
             "relation 20048625: begins at 6 m, above its height of 6 m: left out (2 times)",
             "way 145208575: building:levels is zero (0 m) (6 times)",
             "way 210671718: lies under the ground: left out (3 times)",

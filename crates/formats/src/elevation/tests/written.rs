@@ -102,6 +102,35 @@ fn told(bytes: &[u8]) -> String {
         .to_string()
 }
 
+#[test]
+fn a_flat_strip_may_be_packed_as_far_as_its_packing_goes() {
+    for (packed, compression) in [
+        ("LZW", Compression::Lzw),
+        (
+            "Deflate",
+            Compression::Deflate(tiff::encoder::DeflateLevel::Best),
+        ),
+        ("PackBits", Compression::Packbits),
+    ] {
+        let mut bytes = Vec::new();
+        let encoder = TiffEncoder::new(Cursor::new(&mut bytes)).unwrap();
+        let mut encoder = encoder.with_compression(compression);
+        let mut image = encoder.new_image::<Gray32Float>(2048, 2048).unwrap();
+        image.rows_per_strip(2048).unwrap();
+        let directory = image.encoder();
+        let scale = [2.0, 2.0, 0.0];
+        (directory.write_tag(Tag::ModelPixelScaleTag, &scale[..])).unwrap();
+        let tie_points = [0.0, 0.0, 0.0, 500_000.0, 5_800_000.0, 0.0];
+        (directory.write_tag(Tag::ModelTiepointTag, &tie_points[..])).unwrap();
+        let keys = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32633_u16];
+        (directory.write_tag(Tag::GeoKeyDirectoryTag, &keys[..])).unwrap();
+        image.write_data(&vec![0.0; 2048 * 2048]).unwrap();
+        let read = parse(&bytes, None, &Limits::default());
+        let field = read.unwrap_or_else(|error| panic!("{packed}: {error}"));
+        assert_eq!(field.field.at([2047, 2047]), 0.0);
+    }
+}
+
 const NUMBERS: [f32; 6] = [1.0, 2.0, 3.0, 4.0, 5.0, 60.0];
 
 #[test]

@@ -5,8 +5,23 @@ use super::{INK, LEAST, MOST, ramp};
 use crate::raster::Raster;
 use crate::raster::cells::{Blank, Cells};
 
-/// A warm grey, which the ramp has nowhere.
-pub(super) const BUILDING: Colour = [186, 179, 170];
+/// Why a cell has no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Empty {
+    Building,
+    Outside,
+}
+
+impl Empty {
+    /// Warm greys, which the ramp has nowhere.
+    pub(super) const fn colour(self) -> Colour {
+        match self {
+            Self::Building => [186, 179, 170],
+            Self::Outside => [240, 237, 232],
+        }
+    }
+}
+
 pub(super) const OUTLINE: Colour = [112, 104, 96];
 
 /// How tall enlarging may make a map.
@@ -15,6 +30,8 @@ const TALL: u32 = 1600;
 /// A raster at the size at which it is drawn.
 pub(super) struct Ground<'a> {
     cells: Cells<'a>,
+    /// Of cells without a value those that lie outside; as many as cells, or none.
+    outside: Vec<bool>,
     /// Pixels on the side of a cell.
     zoom: u32,
     metres_per_pixel: f64,
@@ -23,17 +40,21 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    pub(super) fn new(raster: &Raster<'a>) -> Self {
+    pub(super) fn new(raster: &Raster<'a>, outside: &[bool]) -> Self {
         let grid = raster.grid();
         let factor = grid.width.max(grid.height).div_ceil(MOST);
-        let cells = match factor {
-            1 => raster.cells(),
-            _ => raster.cells().means(factor as usize, Blank::IfMostAre),
+        let (cells, outside) = match factor {
+            1 => (raster.cells(), outside.to_vec()),
+            _ => (
+                raster.cells().means(factor as usize, Blank::IfMostAre),
+                reduced(outside, grid.width as usize, factor as usize),
+            ),
         };
         let (width, height) = (cells.width as u32, cells.height as u32);
         let zoom = LEAST.div_ceil(width).min(TALL / height).max(1);
         Self {
             cells,
+            outside,
             zoom,
             metres_per_pixel: grid.cell * f64::from(factor) / f64::from(zoom),
             minutes: raster.unit().minutes(),
@@ -54,8 +75,19 @@ impl<'a> Ground<'a> {
         self.metres_per_pixel
     }
 
-    pub(super) fn has_buildings(&self) -> bool {
-        self.cells.values.iter().any(|v| v.is_nan())
+    /// Whether some cell is empty for this reason.
+    pub(super) fn has(&self, empty: Empty) -> bool {
+        (0..self.cells.values.len()).any(|at| self.empty(at) == Some(empty))
+    }
+
+    /// Why a cell has no value, if it has none.
+    fn empty(&self, at: usize) -> Option<Empty> {
+        let is_outside = self.outside.get(at).copied().unwrap_or(false);
+        self.cells.values[at].is_nan().then_some(if is_outside {
+            Empty::Outside
+        } else {
+            Empty::Building
+        })
     }
 
     /// Draws it with its upper left corner at `left`, `top`. `darkest` is how many minutes the dark
@@ -71,8 +103,9 @@ impl<'a> Ground<'a> {
             let y = top + row as i64 * i64::from(self.zoom);
             for (column, &value) in values.iter().enumerate() {
                 let x = left + column as i64 * i64::from(self.zoom);
-                let colour = if value.is_nan() {
-                    BUILDING
+                let at = row * self.cells.width + column;
+                let colour = if let Some(empty) = self.empty(at) {
+                    empty.colour()
                 } else {
                     let fraction = (value * self.minutes / darkest).clamp(0.0, 1.0);
                     ramp[(fraction * SHADES as f32).round() as usize]
@@ -110,12 +143,27 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Whether there is a cell that is not in a building.
+    /// Whether there is a cell, and it is not in a building.
     fn is_open(&self, column: i64, row: i64) -> bool {
         let at = usize::try_from(column).ok().zip(usize::try_from(row).ok());
         at.is_some_and(|(column, row)| {
             let exists = column < self.cells.width && row < self.cells.height;
-            exists && !self.cells.values[row * self.cells.width + column].is_nan()
+            exists && self.empty(row * self.cells.width + column) != Some(Empty::Building)
         })
     }
+}
+
+/// Of blocks of `factor` by `factor` cells those in which most lie outside.
+fn reduced(outside: &[bool], width: usize, factor: usize) -> Vec<bool> {
+    let mut blocks = Vec::new();
+    for rows in outside.chunks(width * factor) {
+        let mut counts = vec![[0, 0]; width.div_ceil(factor)];
+        for row in rows.chunks_exact(width) {
+            for (column, &is_outside) in row.iter().enumerate() {
+                counts[column / factor][usize::from(is_outside)] += 1;
+            }
+        }
+        blocks.extend(counts.into_iter().map(|[others, outside]| outside > others));
+    }
+    blocks
 }

@@ -1,7 +1,7 @@
 //! What the colours stand for.
 
 use super::canvas::Canvas;
-use super::ground::{BUILDING, OUTLINE};
+use super::ground::{Empty, OUTLINE};
 use super::text::Face;
 use super::{INK, MapStyle, ramp, round};
 use crate::raster::{Raster, Unit};
@@ -69,14 +69,14 @@ impl Legend {
         Self { unit, max, ticks }
     }
 
-    /// Draws it with its upper left corner at `x`, `y`; `blank` names what has no value.
+    /// Draws it with its upper left corner at `x`, `y`; `swatches` name what has no value.
     pub(super) fn draw(
         &self,
         canvas: &mut Canvas,
         x: i64,
         y: i64,
         scale: u32,
-        blank: Option<&str>,
+        swatches: &[(Empty, String)],
     ) {
         let (body, small) = (Face::body(scale), Face::small(scale));
         let caption = format!("Time in shadow ({})", self.unit.name());
@@ -99,14 +99,19 @@ impl Legend {
             let label_top = below + i64::from(7 * scale);
             small.draw_centred(canvas, middle.max(least), label_top, text, INK);
         }
-        if let Some(blank) = blank {
-            let swatch = [bar[0] + i64::from(width + 44 * scale), bar[1]];
+        let mut swatch = [bar[0] + i64::from(width + 44 * scale), bar[1]];
+        if swatches.len() > 1 {
+            // One above the other.
+            swatch[1] -= i64::from(13 * scale);
+        }
+        for (empty, name) in swatches {
             let size = [24 * scale, height];
-            canvas.rectangle(swatch[0], swatch[1], size[0], size[1], BUILDING);
+            canvas.rectangle(swatch[0], swatch[1], size[0], size[1], empty.colour());
             canvas.frame(swatch, size, scale, OUTLINE);
             let text_left = swatch[0] + i64::from(size[0] + 10 * scale);
             let text_top = swatch[1] - i64::from(3 * scale);
-            body.draw(canvas, text_left, text_top, blank, INK);
+            body.draw(canvas, text_left, text_top, name, INK);
+            swatch[1] += i64::from(26 * scale);
         }
     }
 }

@@ -46,6 +46,11 @@ pub struct MapStyle {
     pub unit: Unit,
     /// What the grey of places without a value is called; "Building" where this is empty.
     pub blank: String,
+    /// Of places without a value those that are empty in another way, as they lie outside of what was measured: one for
+    /// each cell, or none at all. They are nearly white.
+    pub outside: Vec<bool>,
+    /// What these are called; "Outside" where this is empty.
+    pub outside_name: String,
     /// What the dark end of the legend stands for, in `unit`; more is as dark. `None`, or what is not
     /// more than 0: the largest value, rounded up. Set it where pictures are to be compared.
     pub max: Option<f32>,
@@ -59,7 +64,7 @@ pub struct MapStyle {
 /// with [`write_image`](crate::write_image). The same arguments give the same picture.
 #[must_use]
 pub fn map_picture(raster: &Raster<'_>, style: &MapStyle) -> ImageBuffer {
-    let ground = Ground::new(raster);
+    let ground = Ground::new(raster, &style.outside);
     let legend = Legend::new(raster, style);
     // Letters as large on the page, whether the picture has 900 pixels or 2400.
     let scale = if ground.width() >= 2 * LEAST { 2 } else { 1 };
@@ -103,13 +108,19 @@ pub fn map_picture(raster: &Raster<'_>, style: &MapStyle) -> ImageBuffer {
 
     let [left, right] = [margin, margin + content].map(i64::from);
     let y = i64::from(legend_top);
-    let blank = if style.blank.is_empty() {
-        "Building"
-    } else {
-        &style.blank
+    let name = |text: &'static str, own: &str| match own {
+        "" => text.to_owned(),
+        own => own.to_owned(),
     };
-    let blank = ground.has_buildings().then_some(blank);
-    legend.draw(&mut canvas, left, y, scale, blank);
+    let (building, outside) = (ground::Empty::Building, ground::Empty::Outside);
+    let swatches = [
+        (building, name("Building", &style.blank)),
+        (outside, name("Outside", &style.outside_name)),
+    ];
+    let swatches: Vec<_> = (swatches.into_iter())
+        .filter(|(empty, _)| ground.has(*empty))
+        .collect();
+    legend.draw(&mut canvas, left, y, scale, &swatches);
     let arrow_left = right - i64::from(arrow::WIDTH * scale);
     arrow::draw(&mut canvas, arrow_left, y, scale);
     let bar = ScaleBar::new(ground.metres_per_pixel(), scale);

@@ -59,7 +59,7 @@ fn style() -> MapStyle {
             .to_owned(),
         unit: Unit::Minutes,
         max: None,
-        blank: String::new(),
+        ..MapStyle::default()
     }
 }
 
@@ -102,9 +102,39 @@ fn colours_are_those_of_the_values_and_north_is_up() {
         pixel.to_srgb().map(|v| (v * 255.0).round() as u8)
     };
     assert_eq!(at(0, 0), ramp::colour(0.0));
-    assert_eq!(at(1, 0), ground::BUILDING);
+    assert_eq!(at(1, 0), ground::Empty::Building.colour());
     assert_eq!(at(0, 1), ramp::colour(0.5));
     assert_eq!(at(1, 1), ramp::colour(1.0));
+}
+
+#[test]
+fn what_lies_outside_is_no_building() {
+    let some = MapStyle {
+        outside: [true, false, false, true].repeat(2250 * 2250 / 4),
+        ..style()
+    };
+    // As it is, and reduced: there blocks in which most cells lie outside do.
+    let values = [f32::NAN, f32::NAN, 1.0, 2.0];
+    let small = picture(
+        2,
+        2,
+        5.0,
+        &values,
+        &MapStyle {
+            outside: some.outside[..4].to_vec(),
+            ..style()
+        },
+    );
+    assert!(small != picture(2, 2, 5.0, &values, &style()));
+    let values = vec![f32::NAN; 2250 * 2250];
+    let all = MapStyle {
+        outside: vec![true; values.len()],
+        ..style()
+    };
+    let large = picture(2250, 2250, 1.0, &values, &all);
+    let pixel = large.pixels()[(large.height() / 2 * large.width() + large.width() / 2) as usize];
+    let pixel = pixel.to_srgb().map(|v| (v * 255.0).round() as u8);
+    assert_eq!(pixel, ground::Empty::Outside.colour());
 }
 
 #[test]
@@ -116,6 +146,7 @@ fn any_raster_and_any_style_make_a_picture() {
         unit: Unit::Hours,
         blank: "No ground".to_owned(),
         max: Some(f32::NAN),
+        ..style()
     };
     for value in [f32::NAN, 0.0, -5.0, f32::MIN_POSITIVE, f32::MAX] {
         for cell in [1e-9, 0.5, 1e12] {
