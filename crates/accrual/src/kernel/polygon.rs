@@ -327,6 +327,7 @@ mod tests {
         Way {
             knots: vec![[0.0, 1.0, 0.0]; 2],
             bulges: vec![[1.0, 0.0, 0.0]],
+            starts: vec![0.0],
             seconds: vec![1200.0],
             sag: 0.25,
             flat: vec![0.0; 2],
@@ -370,7 +371,8 @@ mod tests {
                 let near = sides.map(|side| splat(0.25 * side.bulge.abs()));
                 let [from, to] = [sides.map(|s| splat(s.from)), sides.map(|s| splat(s.to))];
                 let all = splat(0.0).below(splat(1.0));
-                one_arc(&planes, &near, from, to, all, &way, 0, &mut found);
+                let keep = &mut Nothing;
+                one_arc(&planes, &near, from, to, all, &way, 0, &mut found, keep);
             }
             let share = |cover: &Cover| {
                 let mut seconds = [0.0; PLACES];

@@ -24,18 +24,42 @@ pub(crate) struct Record {
     pub(crate) arc: u32,
     /// Which polygon.
     pub(crate) which: u32,
+    /// See [`Occluder::owner`].
+    pub(crate) owner: u32,
+    /// The squares of how near the polygon may be to any of the places, and how far, level.
+    pub(crate) near: f32,
+    pub(crate) far: f32,
 }
 
 /// What was found, and how much of it is known to be all.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     pub(crate) records: Vec<Record>,
-    /// Of the polygon that is looked at.
+    /// Of the polygon that is looked at, as in a record.
     which: u32,
+    owner: u32,
+    near: f32,
+    far: f32,
     /// The arcs that need not be looked at for it.
     left_out: u64,
     /// The arcs of which it covers something.
     covers: u64,
+}
+
+impl Found {
+    /// Of what covers the sun nowhere yet.
+    #[inline(always)]
+    fn record(&self, arc: usize) -> Record {
+        Record {
+            from: [1.0; PLACES],
+            to: [0.0; PLACES],
+            arc: arc as u32,
+            which: self.which,
+            owner: self.owner,
+            near: self.near,
+            far: self.far,
+        }
+    }
 }
 
 impl Keep for Found {
@@ -52,12 +76,7 @@ impl Keep for Found {
                 return;
             }
             let (nowhere, never) = (P::splat(1.0), P::splat(0.0));
-            let mut record = Record {
-                from: [1.0; PLACES],
-                to: [0.0; PLACES],
-                arc: arc as u32,
-                which: self.which,
-            };
+            let mut record = self.record(arc);
             from.or_where_not(places, nowhere)
                 .store(record.from.as_mut_ptr());
             to.or_where_not(places, never).store(record.to.as_mut_ptr());
@@ -68,12 +87,7 @@ impl Keep for Found {
 
     #[inline(never)]
     fn stretch(&mut self, arc: usize, place: usize, from: f32, to: f32) {
-        let mut record = Record {
-            from: [1.0; PLACES],
-            to: [0.0; PLACES],
-            arc: arc as u32,
-            which: self.which,
-        };
+        let mut record = self.record(arc);
         record.from[place] = from;
         record.to[place] = to;
         self.records.push(record);
@@ -150,7 +164,9 @@ pub(super) unsafe fn find<N: Lanes, P: Lanes>(
                     continue 'search;
                 };
                 let occluder = &occluders.list[which];
-                (found.which, found.left_out, found.covers) = (which as u32, left_out, 0);
+                (found.which, found.owner) = (which as u32, occluder.owner);
+                (found.near, found.far) = (next.distance, reach(occluder, tile));
+                (found.left_out, found.covers) = (left_out, 0);
                 let (own, steep) = (&mut covers[kind(occluder.owner)..][..1], next.steep);
                 polygon::<P, _>(occluder, list, arcs, steep, tile, own, found);
                 if occluder.owner >= Facet::CONTEXT {
@@ -168,12 +184,11 @@ pub(super) unsafe fn find<N: Lanes, P: Lanes>(
                 }
                 let mut grown = found.covers & !full;
                 if grown != 0 {
-                    let reach = reach(occluder, tile);
                     full |= covers[0].full & covers[1].full;
                     while grown != 0 {
                         let arc = grown.trailing_zeros() as usize;
                         grown &= grown - 1;
-                        far[arc] = far[arc].max(reach);
+                        far[arc] = far[arc].max(found.far);
                         if full >> arc & 1 == 1 {
                             farthest = farthest.max(far[arc]);
                         }

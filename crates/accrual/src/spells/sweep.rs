@@ -40,10 +40,6 @@ impl<'a> Arc<'a> {
         }
     }
 
-    fn owner(&self, part: &Part) -> u32 {
-        self.occluders[part.which as usize].owner
-    }
-
     /// How far away the polygon is toward the sun of a moment; the unit depends on the moment.
     fn distance(&self, part: &Part, place: Point3, moment: f32) -> f32 {
         let Occluder { corner, normal, .. } = &self.occluders[part.which as usize];
@@ -68,6 +64,7 @@ struct Part {
     from: f32,
     to: f32,
     which: u32,
+    owner: u32,
 }
 
 /// Room for one arc of one place, kept between them.
@@ -86,6 +83,10 @@ impl Sweep {
         at: Point3,
         found: &mut Vec<Stretch>,
     ) {
+        if let Some((owner, is_alone)) = of_all(arc.records, place) {
+            push(arc, [0.0, 1.0], owner, is_alone, found);
+            return;
+        }
         let Self { parts, cuts } = self;
         parts.clear();
         parts.extend(
@@ -94,11 +95,12 @@ impl Sweep {
                     from: record.from[place],
                     to: record.to[place],
                     which: record.which,
+                    owner: record.owner,
                 })
                 .filter(|part| part.from < part.to),
         );
         if let [part] = parts[..] {
-            push(arc, [part.from, part.to], arc.owner(&part), true, found);
+            push(arc, [part.from, part.to], part.owner, true, found);
             return;
         }
         // Between two cuts the same polygons cover the sun.
@@ -110,17 +112,17 @@ impl Sweep {
             let moment = 0.5 * (ends[0] + ends[1]);
             let is_covering = |part: &&Part| part.from < moment && moment < part.to;
             let mut covering = parts.iter().filter(is_covering);
-            let Some(first) = covering.next().map(|part| arc.owner(part)) else {
+            let Some(first) = covering.next().map(|part| part.owner) else {
                 continue;
             };
-            if covering.all(|part| arc.owner(part) == first) {
+            if covering.all(|part| part.owner == first) {
                 push(arc, [ends[0], ends[1]], first, true, found);
                 continue;
             }
             let nearest = |moment| {
                 let all = parts.iter().filter(is_covering);
                 // Of what stands in the same place, always the same one.
-                let keys = all.map(|part| (arc.distance(part, at, moment), arc.owner(part)));
+                let keys = all.map(|part| (arc.distance(part, at, moment), part.owner));
                 let none = (f32::INFINITY, u32::MAX);
                 keys.fold(none, |a, b| if b < a { b } else { a }).1
             };
@@ -140,6 +142,26 @@ impl Sweep {
             push(arc, [begin, end], last, false, found);
         }
     }
+}
+
+/// Whose shadow a place lies in all along the arc, and whether it is of that one alone, if that is plain: something covers all of
+/// the arc, and nothing else comes as near. This is by far the most that happens.
+fn of_all(records: &[Record], place: usize) -> Option<(u32, bool)> {
+    let is_whole = |record: &&Record| record.from[place] <= JOIN && record.to[place] >= 1.0 - JOIN;
+    let whole = records.iter().filter(is_whole);
+    let first = whole.min_by(|a, b| a.far.total_cmp(&b.far))?;
+    let (mut is_alone, mut is_shared) = (true, false);
+    for other in records.iter().filter(|other| other.owner != first.owner) {
+        if other.from[place] < other.to[place] {
+            if other.near < first.far {
+                return None;
+            }
+            is_alone = false;
+            is_shared |= is_whole(&other);
+        }
+    }
+    // What stands behind a part of the time only is a matter of cuts.
+    (is_alone || is_shared).then_some((first.owner, is_alone))
 }
 
 /// Until when something is so that is so at the beginning and not at the end.
