@@ -15,6 +15,8 @@ pub(crate) struct Occluder {
     pub(crate) normal: [f32; 3],
     /// Whether it throws shadow on both its sides.
     pub(crate) is_two_sided: bool,
+    /// See [`Facet::owner`].
+    pub(crate) owner: u32,
     /// The corners, counter-clockwise seen from outside.
     pub(crate) corner: [[f32; 3]; 4],
     /// From each corner to the next one; 0 where a corner is there twice.
@@ -99,6 +101,7 @@ impl Occluder {
             edge,
             normal,
             is_two_sided: facet.is_two_sided,
+            owner: facet.owner,
         })
     }
 

@@ -13,6 +13,8 @@ pub(crate) struct Way {
     pub(crate) knots: Vec<[f32; 3]>,
     /// How far each arc bulges out from its chord: at share u of its time, u (1 − u) times this.
     pub(crate) bulges: Vec<[f32; 3]>,
+    /// When each arc begins, in seconds as [`Instant`](ombra_sun::Instant) counts them.
+    pub(crate) starts: Vec<f64>,
     /// How long each arc takes.
     pub(crate) seconds: Vec<f64>,
     /// The largest bulge, a quarter of it: how far an arc departs from its chord at most.
@@ -61,6 +63,7 @@ impl Way {
         });
         Self {
             bulges,
+            starts: arcs.iter().map(|arc| arc.start).collect(),
             seconds: arcs.iter().map(|arc| arc.end - arc.start).collect(),
             sag: 0.25 * sag,
             flat: flat.collect(),

@@ -61,6 +61,11 @@ impl Ways {
         groups.into_iter().map(Self::new).collect()
     }
 
+    /// One way alone.
+    pub(crate) fn of_one(way: Way) -> Self {
+        Self::new(vec![(0, way)])
+    }
+
     fn new(group: Vec<(usize, Way)>) -> Self {
         let (which, list): (Vec<usize>, Vec<Way>) = group.into_iter().unzip();
         let len = list.iter().map(Way::len).max().unwrap_or(0);

@@ -5,6 +5,7 @@ use ombra_geometry::Aabb;
 
 use super::differs::differs;
 use super::lanes::{Lanes, Pair, Portable};
+use super::stretches::{Found, Record, find};
 use super::walk::{Waiting, clear, reaches, walk};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
@@ -67,6 +68,22 @@ mod x86 {
     pub(super) unsafe fn changes(job: Job<'_>, room: &mut Room) -> u32 {
         // SAFETY: the caller's promise.
         unsafe { differs::<Avx2, Pair<Avx2>>(job, &mut room.covers, &mut room.waiting) }
+    }
+
+    /// # Safety
+    /// - The processor has AVX2.
+    #[target_feature(enable = "avx2")]
+    pub(super) unsafe fn find_avx2(job: Job<'_>, room: &mut FindRoom) {
+        // SAFETY: the caller's promise.
+        unsafe { find_with::<Avx2, Pair<Avx2>>(job, room) }
+    }
+
+    /// # Safety
+    /// - The processor has AVX2 and AVX-512 F.
+    #[target_feature(enable = "avx2,avx512f")]
+    pub(super) unsafe fn find_avx512(job: Job<'_>, room: &mut FindRoom) {
+        // SAFETY: the caller's promise.
+        unsafe { find_with::<Avx2, Avx512>(job, room) }
     }
 }
 
@@ -143,4 +160,64 @@ unsafe fn add<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut Room, seconds: &mut S
     for ((cover, way), seconds) in covers.iter().zip(ways).zip(seconds) {
         cover.add_seconds(&way.seconds, seconds);
     }
+}
+
+/// What a search for stretches needs besides, kept between searches.
+#[derive(Debug)]
+pub(crate) struct FindRoom {
+    covers: Box<[Cover; 2]>,
+    waiting: Vec<Waiting>,
+    found: Found,
+}
+
+impl FindRoom {
+    pub(crate) fn new() -> Self {
+        Self {
+            covers: Box::new([Cover::new(), Cover::new()]),
+            waiting: Vec::new(),
+            found: Found::default(),
+        }
+    }
+}
+
+/// What covers the way, which is the only one, of the tile, which is the only one: of all that is nearest to a place at any time is among it,
+/// and something of another owner as well, if there is.
+pub(crate) fn find_stretches<'a>(
+    level: Level,
+    job: Job<'_>,
+    room: &'a mut FindRoom,
+) -> &'a mut [Record] {
+    match level {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: a level is one that this machine has.
+        Level::Avx2 => unsafe { x86::find_avx2(job, room) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Level::Avx512 => unsafe { x86::find_avx512(job, room) },
+        // SAFETY: every processor has these.
+        _ => unsafe { find_with::<Portable, Pair<Portable>>(job, room) },
+    }
+    &mut room.found.records
+}
+
+/// # Safety
+/// - The processor has the instructions of both.
+#[inline(always)]
+unsafe fn find_with<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut FindRoom) {
+    let FindRoom {
+        covers,
+        waiting,
+        found,
+    } = room;
+    // SAFETY: the caller's promise.
+    unsafe {
+        find::<N, P>(
+            job.occluders,
+            job.ways,
+            &job.tiles[0],
+            covers,
+            waiting,
+            found,
+        )
+    };
 }

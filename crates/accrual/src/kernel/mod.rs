@@ -10,8 +10,10 @@ mod lanes;
 mod polygon;
 mod prefetch;
 mod reference;
+mod stretches;
 mod walk;
 
-pub(crate) use dispatch::{Job, Room, add_seconds, changes, may_cover};
+pub(crate) use dispatch::{FindRoom, Job, Room, add_seconds, changes, find_stretches, may_cover};
 #[cfg(test)]
 pub(crate) use reference::{Side, covered};
+pub(crate) use stretches::Record;

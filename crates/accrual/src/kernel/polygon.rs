@@ -43,6 +43,37 @@ unsafe fn plane<P: Lanes>([x, y, z]: [f32; 3], [dx, dy, dz]: Vectors<P>) -> Vect
     }
 }
 
+/// What is done with stretches of time in which a polygon covers the sun, beside the covering.
+pub(super) trait Keep {
+    /// The arcs that need not be looked at.
+    fn left_out(&self, cover: &Cover) -> u64;
+
+    /// Takes a stretch of one arc for each of some places.
+    ///
+    /// # Safety
+    /// - The processor has the instructions of `P`, which are sixteen.
+    unsafe fn stretches<P: Lanes>(&mut self, arc: usize, places: P::Mask, from: P, to: P);
+
+    /// Takes a stretch of one arc for one place.
+    fn stretch(&mut self, arc: usize, place: usize, from: f32, to: f32);
+}
+
+/// Nothing is kept: what is covered wholly is left out.
+pub(super) struct Nothing;
+
+impl Keep for Nothing {
+    #[inline(always)]
+    fn left_out(&self, cover: &Cover) -> u64 {
+        cover.full
+    }
+
+    #[inline(always)]
+    unsafe fn stretches<P: Lanes>(&mut self, _: usize, _: P::Mask, _: P, _: P) {}
+
+    #[inline(always)]
+    fn stretch(&mut self, _: usize, _: usize, _: f32, _: f32) {}
+}
+
 /// Covers what the polygon covers of some arcs of each way, for all places of a tile: a cover for each way. The box around
 /// the polygon is no steeper above any place than `steep`, the squared tangent of its altitude.
 ///
@@ -51,18 +82,19 @@ unsafe fn plane<P: Lanes>([x, y, z]: [f32; 3], [dx, dy, dz]: Vectors<P>) -> Vect
 /// differ. Where it might have two, within the sag of the arc, the plain way takes over.
 ///
 /// # Safety
-/// - The processor has the instructions of `P`, which are sixteen; a cover's arcs that its way does not have are full.
+/// - The processor has the instructions of `P`, which are sixteen; arcs that a way does not have are left out.
 #[inline(always)]
-pub(super) unsafe fn polygon<P: Lanes>(
+pub(super) unsafe fn polygon<P: Lanes, K: Keep>(
     occluder: &Occluder,
     ways: &[Way],
     arcs: [usize; 2],
     steep: f32,
     tile: &Tile,
     covers: &mut [Cover],
+    keep: &mut K,
 ) {
     let is_needed = (ways.iter().zip(&*covers)).any(|(way, cover)| {
-        let own = trimmed(arcs, cover.full);
+        let own = trimmed(arcs, keep.left_out(cover));
         own[0] <= own[1] && way.lowest(own) < steep
     });
     if !is_needed {
@@ -106,7 +138,7 @@ pub(super) unsafe fn polygon<P: Lanes>(
             sizes[j] = x.size().plus(y.size()).plus(z.size());
         }
         for (way, cover) in ways.iter().zip(covers) {
-            let [first, last] = trimmed(arcs, cover.full);
+            let [first, last] = trimmed(arcs, keep.left_out(cover));
             if first > last || steep <= way.lowest([first, last]) {
                 continue;
             }
@@ -129,7 +161,7 @@ pub(super) unsafe fn polygon<P: Lanes>(
                     open = open.and_not(highest.below(zero));
                 }
                 if open.bits() != 0 {
-                    one_arc(&planes, &near, from, to, open, way, arc, cover);
+                    one_arc(&planes, &near, from, to, open, way, arc, cover, keep);
                 }
                 from = to;
             }
@@ -143,7 +175,7 @@ pub(super) unsafe fn polygon<P: Lanes>(
 /// - As above.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "what a loop hands to its body")]
-unsafe fn one_arc<P: Lanes>(
+unsafe fn one_arc<P: Lanes, K: Keep>(
     planes: &[Vectors<P>; 4],
     near: &[P; 4],
     from: [P; 4],
@@ -152,6 +184,7 @@ unsafe fn one_arc<P: Lanes>(
     way: &Way,
     arc: usize,
     cover: &mut Cover,
+    keep: &mut K,
 ) {
     // SAFETY: the caller's promise.
     unsafe {
@@ -201,13 +234,14 @@ unsafe fn one_arc<P: Lanes>(
         grazing = grazing.and(open);
         if grazing.bits() != 0 {
             let bulges = [0, 1, 2, 3].map(|j| dot(planes[j], along));
-            graze(from, to, bulges, grazing.bits(), arc, cover);
+            graze(from, to, bulges, grazing.bits(), arc, cover, keep);
             open = open.and_not(grazing);
         }
         open = open.and(begin.below(end));
         if open.or(grazing).bits() == 0 {
             return;
         }
+        keep.stretches(arc, open, begin, end);
         // The union: what touches the covered beginning, else the covered end.
         let join = P::splat(JOIN);
         let (rows_before, rows_after) = (
@@ -249,13 +283,15 @@ unsafe fn one_arc<P: Lanes>(
 /// # Safety
 /// - As above.
 #[inline(never)]
-unsafe fn graze<P: Lanes>(
+#[expect(clippy::too_many_arguments, reason = "as above")]
+unsafe fn graze<P: Lanes, K: Keep>(
     from: [P; 4],
     to: [P; 4],
     bulges: [P; 4],
     places: u32,
     arc: usize,
     cover: &mut Cover,
+    keep: &mut K,
 ) {
     let mut numbers = [[[0.0_f32; PLACES]; 3]; 4];
     for (j, numbers) in numbers.iter_mut().enumerate() {
@@ -272,7 +308,10 @@ unsafe fn graze<P: Lanes>(
             to: to[place],
             bulge: bulge[place],
         });
-        covered(&sides, |begin, end| cover.add(arc, place, begin, end));
+        covered(&sides, |begin, end| {
+            keep.stretch(arc, place, begin, end);
+            cover.add(arc, place, begin, end);
+        });
     }
 }
 
@@ -288,6 +327,7 @@ mod tests {
         Way {
             knots: vec![[0.0, 1.0, 0.0]; 2],
             bulges: vec![[1.0, 0.0, 0.0]],
+            starts: vec![0.0],
             seconds: vec![1200.0],
             sag: 0.25,
             flat: vec![0.0; 2],
@@ -331,7 +371,8 @@ mod tests {
                 let near = sides.map(|side| splat(0.25 * side.bulge.abs()));
                 let [from, to] = [sides.map(|s| splat(s.from)), sides.map(|s| splat(s.to))];
                 let all = splat(0.0).below(splat(1.0));
-                one_arc(&planes, &near, from, to, all, &way, 0, &mut found);
+                let keep = &mut Nothing;
+                one_arc(&planes, &near, from, to, all, &way, 0, &mut found, keep);
             }
             let share = |cover: &Cover| {
                 let mut seconds = [0.0; PLACES];

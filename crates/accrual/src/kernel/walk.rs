@@ -9,7 +9,7 @@ use ombra_accel::{BoxChild, BoxNode};
 use ombra_geometry::Aabb;
 
 use super::lanes::{Lanes, Mask as _};
-use super::polygon::polygon;
+use super::polygon::{Nothing, polygon};
 use crate::cover::Cover;
 use crate::occluder::Occluders;
 use crate::tile::Tile;
@@ -19,10 +19,12 @@ use crate::ways::{TURN_PAD, Ways};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Waiting {
     /// As in the node above.
-    child: BoxChild,
-    arcs: [u8; 2],
+    pub(super) child: BoxChild,
+    pub(super) arcs: [u8; 2],
     /// The squared tangent of its altitude.
-    steep: f32,
+    pub(super) steep: f32,
+    /// The square of how far away its box begins, level.
+    pub(super) distance: f32,
 }
 
 /// Nothing of the ways is covered: a cover for each way of each tile.
@@ -75,7 +77,16 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
                         let occluder = &occluders.list[which];
                         full = u64::MAX;
                         for (tile, covers) in tiles.iter().zip(covers.chunks_exact_mut(count)) {
-                            polygon::<P>(occluder, ways.list(), arcs, next.steep, tile, covers);
+                            let (list, steep) = (ways.list(), next.steep);
+                            polygon::<P, _>(
+                                occluder,
+                                list,
+                                arcs,
+                                steep,
+                                tile,
+                                covers,
+                                &mut Nothing,
+                            );
                             for cover in covers {
                                 full &= cover.full;
                             }
@@ -134,7 +145,7 @@ pub(super) fn trimmed([first, last]: [usize; 2], full: u64) -> [usize; 2] {
 }
 
 /// Tiles as boxes are looked at from them.
-struct Around<N> {
+pub(super) struct Around<N> {
     least: [N; 3],
     most: [N; 3],
 }
@@ -143,7 +154,7 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn new(around: Aabb, reach: f32) -> Self {
+    pub(super) unsafe fn new(around: Aabb, reach: f32) -> Self {
         let ([x, y, z], [u, v, w]) = (around.min.to_array(), around.max.to_array());
         let size = x.abs().max(y.abs()).max(z.abs());
         let size = size.max(u.abs()).max(v.abs()).max(w.abs());
@@ -163,7 +174,7 @@ impl<N: Lanes> Around<N> {
     /// # Safety
     /// - The processor has the instructions of `N`.
     #[inline(always)]
-    unsafe fn push(
+    pub(super) unsafe fn push(
         &self,
         occluders: &Occluders,
         node: &BoxNode,
@@ -248,6 +259,7 @@ impl<N: Lanes> Around<N> {
                 child: node.child[k],
                 arcs: own.map(|arc| arc as u8),
                 steep: steep[k],
+                distance: key,
             });
             while place > 0 && keys[place - 1] < key {
                 keys[place] = keys[place - 1];

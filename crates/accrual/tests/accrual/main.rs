@@ -7,4 +7,5 @@ mod faces;
 mod fast;
 mod numbers;
 mod solids;
+mod spells;
 mod whole;

@@ -1,0 +1,175 @@
+//! Stretches of shadow against rays to every polygon.
+
+use ombra_accel::Level;
+use ombra_accrual::{Exact, Occluders, Spells, Stretch};
+use ombra_city::Facet;
+use ombra_geometry::Point3;
+use ombra_sun::{Instant, Sheet, Sky};
+
+use crate::numbers::Numbers;
+use crate::solids::{city, four_days, sheets, sky, spans};
+
+/// Which owners cover the sun of a moment, with how far away each is, the nearest first.
+fn covering(facets: &[Facet], sky: &Sky, place: Point3, moment: Instant) -> Vec<(f64, u32)> {
+    let sun = sky.direction(moment);
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
+    };
+    let mut found: Vec<(f64, u32)> = Vec::new();
+    for facet in facets {
+        let away = facet.corners.map(|corner| {
+            let (corner, place) = (corner.to_array(), place.to_array());
+            [0, 1, 2].map(|k| f64::from(corner[k]) - f64::from(place[k]))
+        });
+        let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);
+        let normal = cross(minus(away[2], away[0]), minus(away[3], away[1]));
+        let along = dot(normal, sun);
+        let sides = [0, 1, 2, 3].map(|k| dot(cross(away[k], away[(k + 1) % 4]), sun));
+        let is_within =
+            sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0);
+        let distance = dot(normal, away[0]) / along;
+        let is_seen = facet.is_two_sided || along < 0.0;
+        if is_seen && is_within && distance > 0.0 {
+            found.push((distance, facet.owner));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found
+}
+
+fn all_levels(occluders: &Occluders, sheets: &[Sheet], places: &[Point3]) -> Vec<Vec<Stretch>> {
+    let found = Spells::new(occluders, sheets).stretches(places);
+    for level in Level::available() {
+        let other = Spells::new(occluders, sheets).at_level(level);
+        assert_eq!(other.stretches(places), found, "{level:?}");
+    }
+    found.iter().map(<[Stretch]>::to_vec).collect()
+}
+
+#[test]
+fn each_moment_belongs_to_what_the_ray_meets_first() {
+    for (seed, latitude) in [(1, 40.0), (2, -33.0), (3, 8.0), (4, 66.0)] {
+        let (mut facets, places) = city(seed, 60);
+        // A hill and a tree besides, which are no buildings.
+        let slope = |x: f32, owner| Facet {
+            corners: [
+                Point3::new(x, -30.0, 0.0),
+                Point3::new(x + 30.0, -20.0, 50.0),
+                Point3::new(x + 60.0, -30.0, 0.0),
+                Point3::new(x + 60.0, -30.0, 0.0),
+            ],
+            is_two_sided: true,
+            owner,
+        };
+        facets.extend([slope(-60.0, Facet::TERRAIN), slope(10.0, Facet::CONTEXT)]);
+        let occluders = Occluders::new(&facets);
+        let sky = sky(latitude);
+        let spans = spans(&sky, &four_days());
+        let found = all_levels(&occluders, &sheets(&sky, &spans), &places);
+        let mut numbers = Numbers(seed);
+        let (mut dark, mut alone, mut besides) = (0, 0, 0);
+        for (place, stretches) in places.iter().zip(&found) {
+            assert!(stretches.iter().all(|stretch| stretch.from < stretch.to));
+            assert!(stretches.windows(2).all(|pair| pair[0].to <= pair[1].from));
+            for span in &spans {
+                for _ in 0..20 {
+                    let share = f64::from(numbers.within(0.0, 1.0));
+                    let moment = Instant::from_seconds(
+                        span.start.seconds() + share * (span.end - span.start),
+                    );
+                    // At a corner of a polygon or where two cross it is a matter of rounding.
+                    let around = [-0.3, 0.0, 0.3].map(|later| {
+                        let moment = Instant::from_seconds(moment.seconds() + later);
+                        let all = covering(&facets, &sky, *place, moment);
+                        let owner = all.first().map(|own| own.1);
+                        (owner, all.iter().all(|own| Some(own.1) == owner))
+                    });
+                    if around[0] != around[1] || around[1] != around[2] {
+                        continue;
+                    }
+                    let own = (stretches.iter()).find(|own| own.from <= moment && moment <= own.to);
+                    let expected = around[1].0.map(|owner| (owner, around[1].1));
+                    assert_eq!(
+                        own.map(|own| (own.owner, own.is_alone)),
+                        expected,
+                        "{latitude} {place:?} {moment:?}"
+                    );
+                    dark += usize::from(own.is_some());
+                    alone += usize::from(own.is_some_and(|own| own.is_alone));
+                    besides += usize::from(own.is_some_and(|own| own.owner >= Facet::CONTEXT));
+                }
+            }
+        }
+        assert!(
+            alone > 100 && dark > alone + 100 && besides > 0,
+            "{dark} {alone} {besides}"
+        );
+    }
+}
+
+#[test]
+fn stretches_add_up_to_the_shadow() {
+    for (seed, latitude) in [(5, 52.0), (6, -10.0), (7, 78.0)] {
+        let (facets, mut places) = city(seed, 50);
+        places.insert(3, Point3::new(f32::NAN, 0.0, 0.0));
+        let occluders = Occluders::new(&facets);
+        let sky = sky(latitude);
+        let sheets = sheets(&sky, &spans(&sky, &four_days()));
+        let found = all_levels(&occluders, &sheets, &places);
+        let exact = Exact::new(&occluders, &sheets).seconds(&places);
+        assert_eq!(found.len(), places.len());
+        assert!(found[3].is_empty());
+        for (stretches, exact) in found.iter().zip(exact) {
+            let sum: f64 = stretches.iter().map(Stretch::seconds).sum();
+            assert!((sum - exact).abs() < 0.02, "{sum} and {exact}");
+        }
+    }
+}
+
+#[test]
+fn what_stands_alone_takes_what_the_others_leave() {
+    // What a building takes alone is what is gained without it.
+    let (facets, places) = city(8, 40);
+    let sky = sky(45.0);
+    let sheets = sheets(&sky, &spans(&sky, &four_days()));
+    let occluders = Occluders::new(&facets);
+    let found = Spells::new(&occluders, &sheets).stretches(&places);
+    let all = Exact::new(&occluders, &sheets).seconds(&places);
+    let mut gained = 0;
+    for owner in 0..40 {
+        let others: Vec<Facet> = (facets.iter().copied())
+            .filter(|facet| facet.owner != owner)
+            .collect();
+        let without = Exact::new(&Occluders::new(&others), &sheets).seconds(&places);
+        for (place, stretches) in found.iter().enumerate() {
+            let own = (stretches.iter()).filter(|own| own.owner == owner && own.is_alone);
+            let alone: f64 = own.map(Stretch::seconds).sum();
+            let gain = all[place] - without[place];
+            assert!(
+                (alone - gain).abs() < 0.05,
+                "{owner} {place}: {alone} and {gain}"
+            );
+            gained += usize::from(gain > 60.0);
+        }
+    }
+    assert!(gained > 30, "{gained}");
+}
+
+#[test]
+fn nothing_throws_no_stretches() {
+    let sky = sky(45.0);
+    let sheets = sheets(&sky, &spans(&sky, &four_days()));
+    let nothing = Occluders::new(&[]);
+    let found = Spells::new(&nothing, &sheets).stretches(&[Point3::ORIGIN]);
+    assert_eq!((found.len(), found.of(0).len()), (1, 0));
+    let (facets, places) = city(9, 5);
+    let some = Occluders::new(&facets);
+    let never = Spells::new(&some, &[]).stretches(&places);
+    assert!(never.len() == places.len() && never.iter().all(<[Stretch]>::is_empty));
+    assert!(Spells::new(&some, &sheets).stretches(&[]).is_empty());
+}
