@@ -5,9 +5,10 @@ use ombra_geometry::Aabb;
 
 use super::differs::differs;
 use super::lanes::{Lanes, Pair, Portable};
+use super::near::Nears;
 use super::stretches::{Record, Seen, find};
 use super::walk::{Waiting, clear, reaches, walk};
-use super::whose::{Entry, Group, Nears, Whose, whose};
+use super::whose::{Entry, Group, Whose, whose};
 use crate::cover::Cover;
 use crate::exact::TILES;
 use crate::occluder::Occluders;

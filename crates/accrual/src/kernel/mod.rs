@@ -8,6 +8,7 @@ mod bits;
 mod differs;
 mod dispatch;
 mod lanes;
+mod near;
 mod polygon;
 mod prefetch;
 mod reference;

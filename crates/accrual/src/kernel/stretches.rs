@@ -2,16 +2,20 @@
 //!
 //! It keeps each stretch of time in which a polygon covers the sun. An arc is left out only when it is known, for all places
 //! of a tile and all of it, that two buildings cover it and that what is nearest of all is among what was found. Two buildings:
-//! owners are of two kinds, by a bit of their number (what is no building is of both), each kind has a cover of its own, and
-//! both are full. The nearest: whatever else there is begins farther away than the farthest corner of what filled them.
+//! one polygon each covers all of it, or else, owners are of two kinds, by a bit of their number, each kind has a cover of its own, and
+//! both are full. What is no building counts as two. The nearest: whatever else there is begins farther away than one that covers all of it, or
+//! than the farthest corner of what filled the covers.
 
 use arrayvec::ArrayVec;
 use ombra_city::Facet;
 
+use super::bits::bits;
 use super::lanes::{Lanes, Mask as _};
+use super::near::farthest;
 use super::polygon::{Keep, polygon};
 use super::walk::{Around, Waiting, trimmed};
-use crate::cover::Cover;
+use super::whose::NOBODY;
+use crate::cover::{Cover, JOIN};
 use crate::exact::TILES;
 use crate::occluder::{Occluder, Occluders};
 use crate::tile::{PLACES, Tile};
@@ -37,10 +41,16 @@ pub(crate) struct Record {
 pub(super) struct Seen {
     /// For the two kinds of owners.
     covers: [Cover; 2],
-    /// The arcs that both cover, or that are not there.
+    /// The arcs that two cover, or that are not there.
     full: u64,
-    /// By arc the square of how far what was found of it reaches, and the most of those that are full.
-    far: [f32; MOST],
+    /// By arc who covers all of it with one polygon, and the arcs of which there are two such.
+    whole: [u32; MOST],
+    twice: u64,
+    /// By arc the square of how far away what begins is behind what was found: beyond what reaches farthest of all, or beyond what
+    /// covers all of it.
+    reach: [f32; MOST],
+    behind: [f32; MOST],
+    /// The most of those that are full.
     farthest: f32,
     /// By arc the last record.
     pub(super) last: [Option<u32>; MOST],
@@ -51,7 +61,10 @@ impl Seen {
         Self {
             covers: [Cover::new(), Cover::new()],
             full: 0,
-            far: [0.0; MOST],
+            whole: [NOBODY; MOST],
+            twice: 0,
+            reach: [0.0; MOST],
+            behind: [f32::INFINITY; MOST],
             farthest: 0.0,
             last: [None; MOST],
         }
@@ -63,40 +76,49 @@ impl Seen {
             cover.clear(arcs);
         }
         self.full = self.covers[0].full;
-        self.far = [0.0; MOST];
+        self.whole = [NOBODY; MOST];
+        self.twice = 0;
+        self.reach = [0.0; MOST];
+        self.behind = [f32::INFINITY; MOST];
         self.farthest = 0.0;
         self.last = [None; MOST];
     }
 
-    /// The arcs of which nothing matters that begins so far away.
+    /// Which of some arcs are such that nothing matters that begins so far away.
     #[inline(always)]
-    fn left_out(&self, distance: f32) -> u64 {
+    fn left_out(&self, distance: f32, [first, last]: [usize; 2]) -> u64 {
         if self.farthest <= distance {
-            self.full
-        } else {
-            self.nearer(distance)
+            return self.full;
         }
+        let among = u64::MAX << first & u64::MAX >> (63 - last);
+        let mut left_out = self.full & among;
+        for arc in bits(left_out) {
+            let is_behind = self.behind[arc].min(self.reach[arc]) <= distance;
+            left_out &= !(u64::from(!is_behind) << arc);
+        }
+        left_out
     }
 
-    #[inline(never)]
-    fn nearer(&self, distance: f32) -> u64 {
-        let mut nearer = self.full;
-        for (arc, &far) in self.far.iter().enumerate() {
-            nearer &= !(u64::from(far > distance) << arc);
-        }
-        nearer
-    }
-
-    /// These arcs were covered more, by what reaches so far.
+    /// An owner covers an arc wholly with one polygon, and what is so far away is behind it.
     #[inline(always)]
-    fn grow(&mut self, mut arcs: u64, far: f32) {
-        self.full |= self.covers[0].full & self.covers[1].full;
-        while arcs != 0 {
-            let arc = arcs.trailing_zeros() as usize;
-            arcs &= arcs - 1;
-            self.far[arc] = self.far[arc].max(far);
+    fn cover(&mut self, arc: usize, owner: u32, behind: f32) {
+        self.behind[arc] = self.behind[arc].min(behind);
+        let other = self.whole[arc];
+        self.whole[arc] = owner;
+        if owner >= Facet::CONTEXT || other != NOBODY && other != owner {
+            self.twice |= 1 << arc;
+        }
+    }
+
+    /// More of these arcs was found, which reaches so far.
+    #[inline(always)]
+    fn grow(&mut self, arcs: u64, reach: f32) {
+        self.full |= self.covers[0].full & self.covers[1].full | self.twice;
+        for arc in bits(arcs) {
+            self.reach[arc] = self.reach[arc].max(reach);
             if self.full >> arc & 1 == 1 {
-                self.farthest = self.farthest.max(self.far[arc]);
+                let far = self.reach[arc].min(self.behind[arc]);
+                self.farthest = self.farthest.max(far);
             }
         }
     }
@@ -110,8 +132,9 @@ struct Found<'a> {
     owner: u32,
     /// The arcs that need not be looked at.
     left_out: u64,
-    /// The arcs of which it covers something.
+    /// The arcs of which it covers something, and all for all places.
     covers: u64,
+    wholly: u64,
 }
 
 impl Found<'_> {
@@ -144,6 +167,11 @@ unsafe impl Keep for Found<'_> {
             if places.bits() == 0 {
                 return;
             }
+            let partly = P::splat(JOIN)
+                .below(from)
+                .or(to.below(P::splat(1.0 - JOIN)));
+            let is_whole = places.and_not(partly).bits() == u32::from(u16::MAX);
+            self.wholly |= u64::from(is_whole) << arc;
             from.or_where_not(places, P::splat(1.0))
                 .store(begins.as_mut_ptr());
             to.or_where_not(places, P::splat(0.0))
@@ -209,12 +237,13 @@ pub(super) unsafe fn find<N: Lanes, P: Lanes>(
                 let Some(next) = waiting.pop() else {
                     break 'search;
                 };
+                arcs = next.arcs.map(usize::from);
                 let each: ArrayVec<u64, TILES> = seen
                     .iter()
-                    .map(|seen| seen.left_out(next.distance))
+                    .map(|seen| seen.left_out(next.distance, arcs))
                     .collect();
                 left_out = each.iter().fold(u64::MAX, |all, own| all & own);
-                arcs = trimmed(next.arcs.map(usize::from), left_out);
+                arcs = trimmed(arcs, left_out);
                 if arcs[0] > arcs[1] {
                     continue;
                 }
@@ -232,15 +261,21 @@ pub(super) unsafe fn find<N: Lanes, P: Lanes>(
                         owner: occluder.owner,
                         left_out,
                         covers: 0,
+                        wholly: 0,
                     };
                     let own = &mut seen.covers[kind..][..1];
                     polygon::<P, _>(occluder, list, arcs, steep, tile, own, &mut found);
                     let covers = found.covers & !seen.full;
+                    let wholly = found.wholly & !seen.full;
                     if occluder.owner >= Facet::CONTEXT {
                         // Of what is no building there is no other: it counts as two.
                         let own = &mut seen.covers[1 - kind..][..1];
                         let besides = &mut Besides(left_out);
                         polygon::<P, _>(occluder, list, arcs, steep, tile, own, besides);
+                    }
+                    for arc in bits(wholly) {
+                        let behind = farthest::<P>(occluder, tile, &list[0], arc);
+                        seen.cover(arc, occluder.owner, behind);
                     }
                     if covers != 0 {
                         seen.grow(covers, reach(occluder, tile));

@@ -7,7 +7,7 @@ use ombra_city::Facet;
 
 use super::bits::bits;
 use super::lanes::{Lanes, Mask as _};
-use super::polygon::dot;
+use super::near::{Near, Nears};
 use super::stretches::Record;
 use crate::cover::JOIN;
 use crate::occluder::Occluder;
@@ -29,118 +29,6 @@ pub(crate) struct Whose {
     pub(crate) shared: u32,
     /// Bit k: of place k it is not plain.
     pub(crate) open: u32,
-}
-
-/// How near a polygon is, as one over its distance, which along an arc is nearly linear.
-#[derive(Clone, Copy)]
-struct Near<P> {
-    /// At the beginning of the arc, and at its end.
-    begin: P,
-    end: P,
-    bulge: P,
-}
-
-/// The same for each place of a tile, in memory.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub(crate) struct Nears {
-    begin: [f32; PLACES],
-    end: [f32; PLACES],
-    bulge: [f32; PLACES],
-}
-
-impl Nears {
-    /// Of one place.
-    pub(crate) fn of(&self, place: usize) -> [f32; 3] {
-        [self.begin[place], self.end[place], self.bulge[place]]
-    }
-
-    /// # Safety
-    /// - The processor has the instructions of `P`, which are sixteen.
-    #[inline(always)]
-    unsafe fn load<P: Lanes>(&self) -> Near<P> {
-        // SAFETY: the caller's promise.
-        unsafe {
-            Near {
-                begin: P::load(self.begin.as_ptr()),
-                end: P::load(self.end.as_ptr()),
-                bulge: P::load(self.bulge.as_ptr()),
-            }
-        }
-    }
-}
-
-impl<P: Lanes> Near<P> {
-    /// # Safety
-    /// - As above.
-    #[inline(always)]
-    unsafe fn store(self) -> Nears {
-        let mut nears = Nears {
-            begin: [0.0; PLACES],
-            end: [0.0; PLACES],
-            bulge: [0.0; PLACES],
-        };
-        // SAFETY: the caller's promise; there is room for sixteen.
-        unsafe {
-            self.begin.store(nears.begin.as_mut_ptr());
-            self.end.store(nears.end.as_mut_ptr());
-            self.bulge.store(nears.bulge.as_mut_ptr());
-        }
-        nears
-    }
-
-    /// # Safety
-    /// - The processor has the instructions of `P`; so below.
-    #[inline(always)]
-    unsafe fn new(occluder: &Occluder, tile: &Tile, way: &Way, arc: usize) -> Self {
-        // SAFETY: the caller's promise; a tile has sixteen places.
-        unsafe {
-            let mut away = [P::splat(0.0); 3];
-            for axis in 0..3 {
-                let at = P::load(tile.at[axis].as_ptr());
-                away[axis] = P::splat(occluder.corner[0][axis]).minus(at);
-            }
-            let above = P::splat(1.0).over(dot(away, occluder.normal));
-            let along = |sun: [f32; 3]| {
-                let [x, y, z] = occluder.normal;
-                x * sun[0] + y * sun[1] + z * sun[2]
-            };
-            let [begin, end] = [way.knots[arc], way.knots[arc + 1]].map(along);
-            Self {
-                begin: above.times(P::splat(begin)),
-                end: above.times(P::splat(end)),
-                bulge: above.times(P::splat(along(way.bulges[arc]))),
-            }
-        }
-    }
-
-    /// At a share of the arc's time.
-    ///
-    /// # Safety
-    /// - As above.
-    #[inline(always)]
-    unsafe fn at(&self, share: P) -> P {
-        // SAFETY: the caller's promise.
-        unsafe {
-            let rest = P::splat(1.0).minus(share);
-            let chord = rest.times(self.begin).plus(share.times(self.end));
-            chord.plus(share.times(rest).times(self.bulge))
-        }
-    }
-
-    /// # Safety
-    /// - As above.
-    #[inline(always)]
-    unsafe fn or_where_not(self, mask: P::Mask, other: Self) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe {
-            Self {
-                begin: self.begin.or_where_not(mask, other.begin),
-                end: self.end.or_where_not(mask, other.end),
-                bulge: self.bulge.or_where_not(mask, other.bulge),
-            }
-        }
-    }
 }
 
 /// A record that is one of an arc.
