@@ -99,6 +99,9 @@ impl Sweep {
             if is_done(parts, pieces, piece.most) {
                 break;
             }
+            if is_hidden(parts, pieces, piece) {
+                continue;
+            }
             next.clear();
             lay(pieces, number, parts, next);
             std::mem::swap(parts, next);
@@ -118,6 +121,25 @@ fn is_done(parts: &[Part], pieces: &[Piece], most: f32) -> bool {
         until = part.to;
     }
     until + JOIN >= 1.0
+}
+
+/// Whether all of the piece is behind what is shared already, so that it changes nothing.
+fn is_hidden(parts: &[Part], pieces: &[Piece], piece: &Piece) -> bool {
+    let mut until = piece.from;
+    for part in parts {
+        if part.to <= until {
+            continue;
+        }
+        let is_behind = piece.most < pieces[part.piece].least;
+        if !(part.is_shared && is_behind && part.from <= until + JOIN) {
+            return false;
+        }
+        until = part.to;
+        if piece.to <= until + JOIN {
+            return true;
+        }
+    }
+    false
 }
 
 /// Lays one more piece among the parts.
