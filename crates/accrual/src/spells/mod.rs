@@ -6,6 +6,7 @@
 
 mod runs;
 mod stretch;
+mod summary;
 mod sweep;
 
 use arrayvec::ArrayVec;
@@ -24,6 +25,7 @@ use crate::ways::Ways;
 
 use runs::Runs;
 pub use stretch::{Stretch, Stretches};
+pub use summary::{Counted, Share, Summary};
 use sweep::Sweep;
 
 /// Finds the stretches of shadow of places, exactly in time.
