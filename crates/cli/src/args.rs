@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::commands::bench::BenchArgs;
 use crate::commands::explain::ExplainArgs;
-use crate::commands::shadows::ShadowsArgs;
+use crate::commands::shadows::ShadowsCommand;
 use crate::commands::study::StudyArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ombra::accel::{StructureAlias, StructureKind, UnknownStructure};
@@ -40,7 +40,7 @@ pub(crate) enum Command {
     /// Rasterize and ray trace a scene, and compare the two loops
     Compare(Box<CompareArgs>),
     /// How many minutes each place of a city lies in shadow
-    Shadows(Box<ShadowsArgs>),
+    Shadows(ShadowsCommand),
     /// Compare all acceleration structures: building, memory, steps, speed
     Study(Box<StudyArgs>),
     /// The minimal ray tracing contest of 1987: its scenes, its format, its rules

@@ -14,6 +14,7 @@ use std::io::{self, Write as _};
 
 use clap::CommandFactory as _;
 use clap::error::ErrorKind;
+use serde::Serialize;
 
 use crate::args::Cli;
 
@@ -29,6 +30,12 @@ impl Talk {
             let _ = writeln!(io::stderr(), "{text}");
         }
     }
+}
+
+/// Numbers, on standard output.
+fn print_json(numbers: &impl Serialize) -> anyhow::Result<()> {
+    let json = serde_json::to_string_pretty(numbers)?;
+    Ok(writeln!(io::stdout(), "{json}")?)
 }
 
 /// Ends with exit code 2 and the usage of a command, as for any other word that cannot be understood.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::{CHANGE_COLUMNS, PLACE_COLUMNS, PlaceRow, angles, rounded};
+use super::{CHANGE_COLUMNS, PLACE_COLUMNS, PlaceRow, PlaceShare, SHARES, angles, rounded};
 use crate::error::FormatError;
 use crate::whole::write_whole_with;
 
@@ -48,6 +48,9 @@ fn feature(file: &mut dyn Write, row: &PlaceRow<'_>) -> io::Result<()> {
     if row.change.is_some() {
         properties.retain(|name, _| !CHANGE_COLUMNS.contains(&&**name));
     }
+    if row.by.is_some() {
+        properties.remove(SHARES);
+    }
     let mut put = |name: &str, value: Value| properties.insert(name.to_owned(), value);
     put("minutes", row.minutes.map_or(Value::Null, minutes));
     put("inside", row.inside.into());
@@ -56,6 +59,9 @@ fn feature(file: &mut dyn Write, row: &PlaceRow<'_>) -> io::Result<()> {
         for (name, value) in CHANGE_COLUMNS.into_iter().zip(all) {
             put(name, value.map_or(Value::Null, minutes));
         }
+    }
+    if let Some(by) = row.by {
+        put(SHARES, by.iter().map(share).collect());
     }
     if let Some((number, id)) = row.building {
         put("building", number.into());
@@ -79,6 +85,15 @@ fn feature(file: &mut dyn Write, row: &PlaceRow<'_>) -> io::Result<()> {
     );
     feature.insert("properties".to_owned(), properties.into());
     serde_json::to_writer(file, &feature).map_err(Into::into)
+}
+
+fn share(share: &PlaceShare<'_>) -> Value {
+    json!({
+        "building": share.building,
+        "building_id": share.building_id,
+        "minutes": minutes(share.minutes),
+        "alone": minutes(share.alone),
+    })
 }
 
 /// The shortest number that is the same in single precision: not 12.300000190734863.

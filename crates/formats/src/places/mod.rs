@@ -15,6 +15,7 @@
 //! | `tilt` | degrees or null | 0 faces up, 90 is upright |
 //! | `id` | text or null | the place's own name |
 //! | `before`, `after`, `net` | number or null | only of a city that is changed: minutes before and after, and what is new; `minutes` and `inside` are after |
+//! | `by` | list | only where it was asked whose shadow it is: for each building `building`, `building_id` (`other` and `terrain` for what is none), `minutes`, and `alone`: minutes in which no other stands behind it |
 //! | `properties` | JSON or null | what else the list of places said of it; in GeoJSON they are properties themselves |
 
 mod geojson;
@@ -46,6 +47,8 @@ pub struct PlaceRow<'a> {
     pub id: Option<&'a str>,
     /// Of a city that is changed; all rows of a file have it, or none.
     pub change: Option<PlaceChange>,
+    /// How long each building takes the sun from it; all rows of a file have it, or none.
+    pub by: Option<&'a [PlaceShare<'a>]>,
     /// What else is known of it.
     pub properties: Option<&'a Map<String, Value>>,
 }
@@ -60,6 +63,22 @@ pub struct PlaceChange {
     /// How many there are more; fewer are negative.
     pub net: Option<f32>,
 }
+
+/// How long one building takes the sun from a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlaceShare<'a> {
+    /// Its number; none for what is no building.
+    pub building: Option<u32>,
+    /// Its name.
+    pub building_id: Option<&'a str>,
+    /// Minutes in which it is the first that the ray toward the sun meets.
+    pub minutes: f32,
+    /// Minutes of these in which no other building stands behind it.
+    pub alone: f32,
+}
+
+/// The name that a property cannot have beside these.
+const SHARES: &str = "by";
 
 /// Names that a property cannot have beside a [`PlaceChange`].
 pub const CHANGE_COLUMNS: [&str; 3] = ["before", "after", "net"];

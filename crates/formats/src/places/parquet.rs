@@ -5,14 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use parquet::basic::Compression;
-use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, FloatType, Int64Type};
+use parquet::data_type::{
+    BoolType, ByteArray, ByteArrayType, DataType, FloatType, Int32Type, Int64Type,
+};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
 
-use super::{PlaceRow, angles};
+use super::{PlaceRow, PlaceShare, angles};
 use crate::columns::{Bounds, Levels, column, point, write_columns};
 use crate::error::FormatError;
 
@@ -36,6 +38,15 @@ const SCHEMA: &str = "message places {
 const CHANGE: &str = "    optional float before;
     optional float after;
     optional float net;
+";
+
+/// And where it was asked whose shadow it is.
+const BY: &str = "    required group by (LIST) { repeated group list { required group element {
+        optional int32 building;
+        optional binary building_id (STRING);
+        required float minutes;
+        required float alone;
+    } } }
 ";
 
 /// Writes places as GeoParquet 1.1 in OGC:CRS84, packed with Snappy.
@@ -64,8 +75,10 @@ fn encode<'a>(
         .build();
     let mut rows = rows.peekable();
     let is_change = rows.peek().is_some_and(|row| row.change.is_some());
-    let more = if is_change { CHANGE } else { "" };
-    let schema = Arc::new(parse_message_type(&format!("{SCHEMA}{more}}}"))?);
+    let is_by = rows.peek().is_some_and(|row| row.by.is_some());
+    let change = if is_change { CHANGE } else { "" };
+    let by = if is_by { BY } else { "" };
+    let schema = Arc::new(parse_message_type(&format!("{SCHEMA}{change}{by}}}"))?);
     let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties))?;
     let mut bounds = Bounds::default();
     loop {
@@ -74,7 +87,7 @@ fn encode<'a>(
             break;
         }
         bounds.add(group.iter().map(|row| row.position));
-        write_group(writer.next_row_group()?, &group, is_change)?;
+        write_group(writer.next_row_group()?, &group, is_change, is_by)?;
     }
     for (name, value) in metadata {
         writer.append_key_value_metadata(KeyValue::new(name.clone(), value.clone()));
@@ -89,6 +102,7 @@ fn write_group<W: Write + Send>(
     mut group: SerializedRowGroupWriter<'_, W>,
     rows: &[PlaceRow<'_>],
     is_change: bool,
+    is_by: bool,
 ) -> Result<(), ParquetError> {
     let all = |of: &dyn Fn(&PlaceRow<'_>) -> ByteArray| rows.iter().map(of).collect::<Vec<_>>();
     let text = |text: &str| ByteArray::from(text.as_bytes().to_vec());
@@ -117,8 +131,50 @@ fn write_group<W: Write + Send>(
         optional::<FloatType, _>(&mut group, rows, |row| row.change?.after)?;
         optional::<FloatType, _>(&mut group, rows, |row| row.change?.net)?;
     }
+    if is_by {
+        write_shares(&mut group, rows)?;
+    }
     group.close()?;
     Ok(())
+}
+
+/// The four columns of the list of buildings.
+fn write_shares<W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    rows: &[PlaceRow<'_>],
+) -> Result<(), ParquetError> {
+    let lists = || rows.iter().map(|row| row.by.unwrap_or_default());
+    // An empty list has no element, and only the first of a list begins a row.
+    let (mut repetition, mut is_there) = (Vec::new(), Vec::new());
+    for list in lists() {
+        repetition.extend((0..list.len().max(1)).map(|k| i16::from(k > 0)));
+        is_there.extend((0..list.len().max(1)).map(|_| i16::from(!list.is_empty())));
+    }
+    let all: Vec<&PlaceShare<'_>> = lists().flatten().collect();
+    let of = |is_known: &dyn Fn(&PlaceShare<'_>) -> bool| -> Vec<i16> {
+        let mut each = all.iter();
+        let level = |&is_there: &i16| match is_there {
+            0 => 0,
+            _ => 1 + i16::from(each.next().is_some_and(|share| is_known(share))),
+        };
+        is_there.iter().map(level).collect()
+    };
+    let levels = |definition| Levels {
+        definition: Some(definition),
+        repetition: Some(&repetition),
+    };
+    let numbers = all.iter().filter_map(|share| share.building);
+    let numbers: Vec<i32> = numbers.map(|number| number as i32).collect();
+    let known = of(&|share| share.building.is_some());
+    column::<Int32Type, W>(group, &numbers, levels(&known))?;
+    let names = all.iter().filter_map(|share| share.building_id);
+    let names: Vec<ByteArray> = names.map(|name| name.as_bytes().to_vec().into()).collect();
+    let known = of(&|share| share.building_id.is_some());
+    column::<ByteArrayType, W>(group, &names, levels(&known))?;
+    let minutes: Vec<f32> = all.iter().map(|share| share.minutes).collect();
+    column::<FloatType, W>(group, &minutes, levels(&is_there))?;
+    let alone: Vec<f32> = all.iter().map(|share| share.alone).collect();
+    column::<FloatType, W>(group, &alone, levels(&is_there))
 }
 
 /// A column whose values may be absent.

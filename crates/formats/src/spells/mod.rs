@@ -14,6 +14,7 @@
 //! The footer holds, as JSON under `ombra_spells`, what a reader needs besides: see [`SpellsAbout`].
 
 mod about;
+mod chunks;
 mod read;
 mod write;
 

@@ -12,6 +12,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::about::instant;
+use super::chunks::Chunks;
 use super::{COLUMNS, KEY, SpellsAbout, SpellsGroup};
 use crate::columns::wrong;
 use crate::error::{Fault, FormatError};
@@ -22,7 +23,7 @@ const BATCH: usize = 1 << 16;
 /// A file of spells that is open.
 pub struct SpellsFile {
     path: PathBuf,
-    file: SerializedFileReader<File>,
+    file: SerializedFileReader<Chunks>,
     about: SpellsAbout,
 }
 
@@ -37,7 +38,9 @@ impl SpellsFile {
             let action = "be opened";
             let file = File::open(path)
                 .map_err(|source| FormatError::file(Fault::Io { action, source }))?;
-            let file = SerializedFileReader::new(file).map_err(broken)?;
+            let chunks = Chunks::new(file)
+                .map_err(|source| FormatError::file(Fault::Io { action, source }))?;
+            let file = SerializedFileReader::new(chunks).map_err(broken)?;
             let about = about(&file)?;
             Ok((file, about))
         };
@@ -93,7 +96,7 @@ fn broken(error: ParquetError) -> FormatError {
 
 const WRITES: &str = "a file that `ombra shadows CITY --spells OUT.parquet` wrote is wanted";
 
-fn about(file: &SerializedFileReader<File>) -> Result<SpellsAbout, FormatError> {
+fn about(file: &SerializedFileReader<Chunks>) -> Result<SpellsAbout, FormatError> {
     let metadata = file.metadata().file_metadata();
     let columns = metadata.schema_descr().columns();
     let types = [

@@ -68,6 +68,7 @@ fn write(path: &std::path::Path, about: &SpellsAbout, groups: &[SpellsGroup]) {
     write_spells(path, about, &metadata, |writer| {
         groups.iter().try_for_each(|group| writer.write(group))
     })
+    .map_err(|error: crate::FormatError| error.to_string())
     .unwrap();
 }
 
@@ -107,6 +108,51 @@ fn many_places_come_back() {
 }
 
 #[test]
+fn what_rounds_to_nothing_is_left_out() {
+    let mut group = groups()[1].clone();
+    group.stretches = Default::default();
+    group.stretches.push([
+        stretch(1000.0, 1000.0003, 0, true),
+        stretch(2000.0, 2000.001, 1, true),
+    ]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    write(&path, &about(), &[group]);
+    let read = SpellsFile::open(&path).unwrap().read(0).unwrap();
+    assert_eq!(read.stretches.of(0), [stretch(2000.0, 2000.001, 1, true)]);
+}
+
+#[test]
+fn threads_read_groups_at_once() {
+    let all: Vec<SpellsGroup> = (0..40_u32)
+        .map(|group| {
+            let mut own = SpellsGroup::default();
+            for k in 0..2000 {
+                own.places.push(2000 * group + k);
+                own.positions.push([4.36, 52.0, f64::from(group)]);
+                let begin = f64::from(1000 + group + k);
+                own.stretches.push([stretch(begin, begin + 1.0, 0, true)]);
+            }
+            own
+        })
+        .collect();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    write(&path, &about(), &all);
+    let file = SpellsFile::open(&path).unwrap();
+    std::thread::scope(|scope| {
+        for thread in 0..4 {
+            let (file, all) = (&file, &all);
+            scope.spawn(move || {
+                for k in (thread..40).step_by(2).chain(0..10) {
+                    assert!(file.read(k).unwrap() == all[k]);
+                }
+            });
+        }
+    });
+}
+
+#[test]
 fn none_is_a_file_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
@@ -139,7 +185,10 @@ fn what_is_wrong_is_said() {
 
     let mut wrong = groups()[0].clone();
     wrong.stretches = Default::default();
-    wrong.stretches.push([stretch(2000.0, 1000.0, 0, true)]);
+    wrong.stretches.push([
+        stretch(2000.0, 3000.0, 0, true),
+        stretch(1000.0, 2500.0, 0, true),
+    ]);
     wrong.stretches.push([]);
     wrong.stretches.push([]);
     write(&path, &about(), &[wrong.clone()]);

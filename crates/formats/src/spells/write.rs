@@ -32,13 +32,13 @@ pub struct SpellsWriter<'a> {
 /// The file is put in its place when it is whole, and its bytes depend on what is written alone.
 ///
 /// # Errors
-/// When the folder does not exist or cannot be written into.
-pub fn write_spells(
+/// When the folder does not exist or cannot be written into, and what `groups` fails with: then nothing is written.
+pub fn write_spells<E: From<FormatError>>(
     path: impl AsRef<Path>,
     about: &SpellsAbout,
     metadata: &[(String, String)],
-    groups: impl FnOnce(&mut SpellsWriter<'_>) -> Result<(), FormatError>,
-) -> Result<(), FormatError> {
+    groups: impl FnOnce(&mut SpellsWriter<'_>) -> Result<(), E>,
+) -> Result<(), E> {
     let mut failed = None;
     let written = write_columns(path, |file| {
         let mut writer = SpellsWriter::new(file)?;
@@ -50,7 +50,7 @@ pub fn write_spells(
     });
     match failed {
         Some(error) => Err(error),
-        None => written,
+        None => Ok(written?),
     }
 }
 
@@ -105,26 +105,26 @@ impl<'a> SpellsWriter<'a> {
         column::<Int32Type, _>(&mut columns, &places, Levels::NONE)?;
 
         let (mut definition, mut repetition) = (Vec::new(), Vec::new());
+        let mut all: Vec<Row> = Vec::new();
         for list in group.stretches.iter() {
-            definition.push(i16::from(!list.is_empty()));
-            repetition.push(0);
-            for _ in list.iter().skip(1) {
-                definition.push(1);
-                repetition.push(1);
-            }
+            let before = all.len();
+            all.extend(list.iter().map(Row::new).filter(|row| row.begin < row.end));
+            let count = all.len() - before;
+            // An empty list has no element, and only the first of a list begins a row.
+            definition.extend((0..count.max(1)).map(|_| i16::from(count > 0)));
+            repetition.extend((0..count.max(1)).map(|k| i16::from(k > 0)));
         }
         let levels = Levels {
             definition: Some(&definition),
             repetition: Some(&repetition),
         };
-        let all: Vec<&Stretch> = group.stretches.iter().flatten().collect();
-        let begins: Vec<i64> = all.iter().map(|own| milliseconds(own.from)).collect();
+        let begins: Vec<i64> = all.iter().map(|row| row.begin).collect();
         column::<Int64Type, _>(&mut columns, &begins, levels)?;
-        let ends: Vec<i64> = all.iter().map(|own| milliseconds(own.to)).collect();
+        let ends: Vec<i64> = all.iter().map(|row| row.end).collect();
         column::<Int64Type, _>(&mut columns, &ends, levels)?;
-        let buildings: Vec<i32> = all.iter().map(|own| number(own.owner)).collect();
+        let buildings: Vec<i32> = all.iter().map(|row| row.building).collect();
         column::<Int32Type, _>(&mut columns, &buildings, levels)?;
-        let alone: Vec<bool> = all.iter().map(|own| own.is_alone).collect();
+        let alone: Vec<bool> = all.iter().map(|row| row.is_alone).collect();
         column::<BoolType, _>(&mut columns, &alone, levels)?;
         columns.close()?;
         Ok(())
@@ -146,6 +146,25 @@ impl<'a> SpellsWriter<'a> {
         self.file.append_key_value_metadata(self.bounds.geo());
         self.file.close()?;
         Ok(())
+    }
+}
+
+/// A stretch as it is written. One shorter than half a millisecond may have no length.
+struct Row {
+    begin: i64,
+    end: i64,
+    building: i32,
+    is_alone: bool,
+}
+
+impl Row {
+    fn new(stretch: &Stretch) -> Self {
+        Self {
+            begin: milliseconds(stretch.from),
+            end: milliseconds(stretch.to),
+            building: number(stretch.owner),
+            is_alone: stretch.is_alone,
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
 use super::site::SurroundingsArgs;
+use super::spells::SpellsArgs;
 use super::what_if::WhatIfArgs;
 
 /// How many minutes each place of a city lies in shadow: of the ground, on roofs, on facades, or points of yours
@@ -54,6 +55,9 @@ pub(crate) struct ShadowsArgs {
     #[command(flatten)]
     pub(crate) what_if: WhatIfArgs,
 
+    #[command(flatten)]
+    pub(crate) spells: SpellsArgs,
+
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
@@ -97,6 +101,17 @@ impl ShadowsArgs {
         options.heights.attribute.clone_from(&self.height_attribute);
         options.heights.default = self.default_height;
         options
+    }
+
+    /// The files that are written.
+    pub(super) fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
+        let SpellsArgs {
+            spells,
+            by_building,
+            ..
+        } = &self.spells;
+        let all = [&self.output, &self.png, spells, by_building];
+        all.into_iter().flatten()
     }
 
     /// Seconds between samples, if there are any.
@@ -229,6 +244,18 @@ impl WhenArgs {
     pub(crate) const fn names_days(&self) -> bool {
         self.date.is_some() || self.from.is_some() || self.season.is_some()
     }
+
+    /// Whether it is said which days or hours.
+    pub(crate) fn names_time(&self) -> bool {
+        self.names_days()
+            || self.weekdays.is_some()
+            || self.months.is_some()
+            || self.hours.is_some()
+            || self.solar_time.is_some()
+            || self.after_sunrise > 0.0
+            || self.before_sunset > 0.0
+            || self.min_altitude > 0.0
+    }
 }
 
 /// What was typed, and what it means.
@@ -275,7 +302,7 @@ impl Method {
     }
 }
 
-fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
+pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let own = path
         .extension()
@@ -296,6 +323,14 @@ const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
 fn output(text: &str) -> Result<PathBuf, String> {
     ends_in(text, &[&["tif", "tiff"][..], &GEOJSON, &PARQUET].concat())
+}
+
+pub(super) fn parquet(text: &str) -> Result<PathBuf, String> {
+    ends_in(text, &PARQUET)
+}
+
+pub(super) fn csv(text: &str) -> Result<PathBuf, String> {
+    ends_in(text, &["csv"])
 }
 
 fn png(text: &str) -> Result<PathBuf, String> {

@@ -61,6 +61,56 @@ pub(super) struct SomeDays {
 /// Tiles are measured in blocks of so many.
 const BLOCK: usize = 64;
 
+/// How many tiles are measured at once: as many as take about as long as a part should, in whole blocks. So the same tiles are
+/// always looked at together, however long a part took.
+pub(super) struct Pace {
+    tiles: usize,
+    begun: Instant,
+}
+
+impl Pace {
+    pub(super) fn new() -> Self {
+        Self {
+            tiles: BLOCK,
+            begun: Instant::now(),
+        }
+    }
+
+    /// A part begins; where it ends, if it begins at a tile and there are so many.
+    pub(super) fn begin(&mut self, tile: usize, tiles: usize) -> usize {
+        self.begun = Instant::now();
+        tiles.min(tile + self.tiles)
+    }
+
+    /// The part is over.
+    pub(super) fn end(&mut self) {
+        let faster = PART / self.begun.elapsed().as_secs_f64().max(1e-6);
+        let tiles = self.tiles as f64 * faster.clamp(0.5, 4.0);
+        self.tiles = (tiles as usize / BLOCK).max(1) * BLOCK;
+    }
+}
+
+impl Measured {
+    /// Nothing is measured yet, and it took so long to make everything ready.
+    pub(super) const fn begun(build_seconds: f64) -> Self {
+        Self {
+            minutes: Vec::new(),
+            done: 0,
+            resumed: 0,
+            build_seconds,
+            seconds: 0.0,
+            some_days: None,
+        }
+    }
+
+    /// It took so long, and there were so many places in all.
+    pub(super) fn end(&mut self, total: usize, seconds: f64) {
+        self.done = self.minutes.len();
+        self.minutes.resize(total, f32::NAN);
+        self.seconds = seconds;
+    }
+}
+
 /// How long a part should take, in seconds: between parts progress is shown.
 const PART: f64 = 0.1;
 
@@ -152,41 +202,27 @@ pub(super) fn in_parts(
     let total = tiles.places().len();
     // Each of the points that stand for the sun counts by its share.
     let each_minute = 60.0 * when.suns.len() as f64;
-    let mut minutes = Vec::with_capacity(total);
+    let mut measured = Measured::begun(build_seconds);
     if let Some((_, before)) = kept {
-        minutes.append(before);
+        measured.minutes.append(before);
     }
-    let resumed = minutes.len();
+    measured.resumed = measured.minutes.len();
     let begun = Instant::now();
-    let mut tile = tiles.before(resumed);
-    let mut count = BLOCK;
+    let mut tile = tiles.before(measured.resumed);
+    let mut pace = Pace::new();
     while tile < tiles.len() && !stop.load(Ordering::Relaxed) {
-        let begun = Instant::now();
-        let end = tiles.len().min(tile + count);
-        minutes.extend(
-            part(tile..end)
-                .into_iter()
-                .map(|seconds| (seconds / each_minute) as f32),
-        );
+        let end = pace.begin(tile, tiles.len());
+        let minutes = &mut measured.minutes;
+        let seconds = part(tile..end).into_iter();
+        minutes.extend(seconds.map(|seconds| (seconds / each_minute) as f32));
         tile = end;
-        // So many that a part takes about as long as it should. In whole blocks: then the same tiles are always looked
-        // at together, however long a part took.
-        let faster = PART / begun.elapsed().as_secs_f64().max(1e-6);
-        count = ((count as f64 * faster.clamp(0.5, 4.0)) as usize / BLOCK).max(1) * BLOCK;
+        pace.end();
         if let Some((partial, _)) = kept {
-            partial.keep_sometimes(&minutes);
+            partial.keep_sometimes(minutes);
         }
         bar.update(minutes.len() as u64, total as u64, "places");
     }
     bar.finish();
-    let done = minutes.len();
-    minutes.resize(total, f32::NAN);
-    Measured {
-        minutes,
-        done,
-        resumed,
-        build_seconds,
-        seconds: begun.elapsed().as_secs_f64(),
-        some_days: None,
-    }
+    measured.end(total, begun.elapsed().as_secs_f64());
+    measured
 }

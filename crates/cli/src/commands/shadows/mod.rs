@@ -2,6 +2,7 @@
 
 mod args;
 mod bound;
+mod command;
 mod demo;
 mod measure;
 mod output;
@@ -10,10 +11,10 @@ mod places;
 mod reach;
 mod rows;
 mod site;
+mod spells;
 mod what_if;
 mod when;
 
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -28,6 +29,7 @@ use ombra::sun::Place;
 
 use args::Method;
 pub(crate) use args::{OutputKind, ShadowsArgs};
+pub(crate) use command::ShadowsCommand;
 use measure::{Measured, measure};
 use output::{Statistics, summary};
 use partial::Partial;
@@ -36,17 +38,24 @@ use reach::Reach;
 use site::Site;
 use when::When;
 
-use super::Talk;
+use super::{Talk, print_json};
 use crate::interrupt;
 
 /// The city that is built in.
 const DEMO: &str = "demo";
 
-pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
+pub(crate) fn run(command: &ShadowsCommand) -> anyhow::Result<ExitCode> {
+    match command {
+        ShadowsCommand::City(args) => of_city(args),
+        ShadowsCommand::Query(args) => spells::query::run(args),
+    }
+}
+
+fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     let is_demo = args.city == DEMO;
-    let asks_for_files = args.output.is_some() || args.png.is_some();
+    let asks_for_files = args.outputs().next().is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
-    let is_tour = is_tour && !args.what_if.is_asked();
+    let is_tour = is_tour && !args.what_if.is_asked() && !args.spells.is_asked();
     if !is_tour && !args.when.names_days() {
         no_days();
     }
@@ -56,6 +65,7 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     refuse_maps_of_no_grid(args);
     refuse_what_is_not_used(args);
     refuse_to_write_what_is_read(args);
+    spells::refuse(args);
     if args.resume && !asks_for_files && !is_tour {
         wrong_usage("--resume goes on with an output: name it, with -o or --png");
     }
@@ -82,7 +92,7 @@ struct Session {
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in [&args.output, &args.png].into_iter().flatten() {
+    for path in args.outputs() {
         // What would fail in the end fails at once.
         can_write_whole(path)?;
     }
@@ -125,7 +135,11 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         talk.say(&format!("{}: {}", args.city, around.describe()));
     }
 
-    let mut kept = Partial::open(args, &facets, &places.tiles, &when)?;
+    let mut kept = if args.spells.is_asked() {
+        None
+    } else {
+        Partial::open(args, &facets, &places.tiles, &when)?
+    };
     if let Some((_, before)) = kept.as_ref().filter(|_| args.resume) {
         let all = places.tiles.places().len();
         talk.say(&match before.len() {
@@ -133,7 +147,19 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
             done => format!("goes on: {done} of {all} places are done"),
         });
     }
-    let measured = measure(args, &facets, &when, &places.tiles, cpu, stop, &mut kept);
+    let found = if args.spells.is_asked() {
+        spells::measure(args, session, &city, &facets, &when, &places, &talk)?
+    } else {
+        let tiles = &places.tiles;
+        Some((
+            measure(args, &facets, &when, tiles, cpu, stop, &mut kept),
+            None,
+        ))
+    };
+    let Some((measured, attribution)) = found else {
+        talk.say("interrupted before there was anything to keep; nothing written");
+        return Ok(ExitCode::from(interrupt::EXIT_CODE));
+    };
     let Measured { minutes, done, .. } = &measured;
     if *done == 0 {
         talk.say("interrupted before there was anything to keep; nothing written");
@@ -143,20 +169,23 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     if let Some((partial, _)) = kept.as_ref().filter(|_| !is_whole) {
         partial.keep(&minutes[..*done])?;
     }
-    output::write(args, &city, &places, &when, &measured)?;
+    let by = attribution
+        .as_ref()
+        .map(|found| found.spread(&places, &city));
+    output::write(args, &city, &places, &when, &measured, by.as_deref())?;
     if let Some((partial, _)) = kept.as_ref().filter(|_| is_whole) {
         partial.remove()?;
     }
     let threads = cpu.threads();
     let mut statistics = Statistics::new(args, &city, &places, around, &when, &measured, threads);
     statistics.load_seconds = load_seconds;
+    statistics.by_building = attribution.map(|found| found.buildings);
     talk.say(&summary(&statistics));
-    if args.output.is_none() && args.png.is_none() && !args.json {
+    if args.outputs().next().is_none() && !args.json {
         talk.say("nothing was written: -o keeps the minutes (.tif, .geojson, .parquet), --png shadow.png is a map");
     }
     if args.json {
-        let json = serde_json::to_string_pretty(&statistics)?;
-        writeln!(io::stdout(), "{json}")?;
+        print_json(&statistics)?;
     }
     Ok(ExitCode::from(if is_whole {
         0
@@ -208,7 +237,7 @@ fn refuse_to_write_what_is_read(args: &ShadowsArgs) {
         let [a, b] = [a, b].map(std::fs::canonicalize);
         a.is_ok_and(|a| b.is_ok_and(|b| a == b))
     };
-    for output in [&args.output, &args.png].into_iter().flatten() {
+    for output in args.outputs() {
         if args.inputs().any(|input| same(input, output)) {
             wrong_usage(&format!(
                 "{}: is a file that is read; write to another one",

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ombra::city::City;
-use ombra::formats::places::{write_places_geojson, write_places_parquet};
+use ombra::formats::places::{PlaceShare, write_places_geojson, write_places_parquet};
 use ombra::formats::raster::{MapStyle, Raster, Unit, map_picture, write_geotiff};
 use ombra::formats::{Metadata, write_image};
 use serde::Serialize;
@@ -13,6 +13,7 @@ use super::measure::{Measured, SomeDays};
 use super::places::{Kind, Places};
 use super::reach::Reach;
 use super::rows::with_rows;
+use super::spells::BuildingRow;
 use super::when::When;
 use crate::commands::command;
 
@@ -64,6 +65,9 @@ pub(super) struct Statistics<'a> {
     interrupted: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     some_days: Option<SomeDays>,
+    /// With --attribute.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) by_building: Option<Vec<BuildingRow>>,
 }
 
 impl<'a> Statistics<'a> {
@@ -118,6 +122,7 @@ impl<'a> Statistics<'a> {
                 / measured.seconds.max(1e-9),
             interrupted: measured.done < measured.minutes.len(),
             some_days: measured.some_days,
+            by_building: None,
         }
     }
 }
@@ -211,6 +216,7 @@ pub(super) fn write(
     places: &Places,
     when: &When,
     measured: &Measured,
+    by: Option<&[Vec<PlaceShare<'_>>]>,
 ) -> anyhow::Result<()> {
     let values = places.spread(&measured.minutes);
     if let Some(path) = &args.output {
@@ -218,10 +224,10 @@ pub(super) fn write(
         let mut metadata = metadata(when, args.method, bound, "minutes in shadow");
         metadata.extend(share(measured).map(|share| ("measured".to_owned(), share)));
         match (OutputKind::of(path), &places.kind) {
-            (OutputKind::GeoJson, _) => with_rows(places, city, &values, None, |rows| {
+            (OutputKind::GeoJson, _) => with_rows(places, city, &values, None, by, |rows| {
                 write_places_geojson(path, rows, &metadata)
             })?,
-            (OutputKind::Parquet, _) => with_rows(places, city, &values, None, |rows| {
+            (OutputKind::Parquet, _) => with_rows(places, city, &values, None, by, |rows| {
                 write_places_parquet(path, rows, &metadata)
             })?,
             (OutputKind::GeoTiff, Kind::Grid { grid, .. }) => {

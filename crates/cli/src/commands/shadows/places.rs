@@ -208,14 +208,19 @@ impl Places {
     /// One number for each of the places, out of those for the measured ones; NaN for the rest.
     pub(super) fn spread(&self, minutes: &[f32]) -> Vec<f32> {
         let mut values = vec![f32::NAN; self.count()];
-        for (&index, &minutes) in self.tiles.indices().iter().zip(minutes) {
-            let index = match &self.kind {
-                Kind::Points { outside, .. } => outside[index as usize],
-                _ => index,
-            };
+        for (index, &minutes) in self.numbers(0..minutes.len()).zip(minutes) {
             values[index as usize] = minutes;
         }
         values
+    }
+
+    /// Which of the places some of the measured ones are.
+    pub(super) fn numbers(&self, which: std::ops::Range<usize>) -> impl Iterator<Item = u32> {
+        let indices = self.tiles.indices()[which].iter();
+        indices.map(|&index| match &self.kind {
+            Kind::Points { outside, .. } => outside[index as usize],
+            _ => index,
+        })
     }
 
     /// Of the cells of a grid those that lie in no building and are not among the first `done` places: they lie outside of a

@@ -2,19 +2,20 @@
 
 use ombra::accrual::Ground;
 use ombra::city::{City, Crs, Inside};
-use ombra::formats::places::{PlaceChange, PlaceRow};
+use ombra::formats::places::{PlaceChange, PlaceRow, PlaceShare};
 use ombra::geometry::Point3;
 
 use super::bound::Bound;
 use super::places::{Kind, Places, Within};
 
 /// Calls with all rows in turn: `minutes` are one number a place, NaN where there is none. Of a city that is changed, where they are after
-/// the change, `change` are those before it and how many are new.
+/// the change, `change` are those before it and how many are new. `by` is what each building takes.
 pub(super) fn with_rows<R>(
     places: &Places,
     city: &City,
     minutes: &[f32],
     change: Option<[&[f32]; 2]>,
+    by: Option<&[Vec<PlaceShare<'_>>]>,
     write: impl FnOnce(&mut dyn Iterator<Item = PlaceRow<'_>>) -> R,
 ) -> R {
     let position = |at: Point3| {
@@ -49,6 +50,7 @@ pub(super) fn with_rows<R>(
                     position: position(at),
                     minutes: known(index),
                     change: change(index),
+                    by: by.map(|by| &*by[index]),
                     inside: owner.is_some(),
                     building: owner.map(building),
                     ..PlaceRow::default()
@@ -65,6 +67,7 @@ pub(super) fn with_rows<R>(
                     position: position(place.at),
                     minutes: known(index),
                     change: change(index),
+                    by: by.map(|by| &*by[index]),
                     building: Some(building(place.building)),
                     surface: Some((kind.name(), place.normal)),
                     ..PlaceRow::default()
@@ -85,6 +88,7 @@ pub(super) fn with_rows<R>(
                     position,
                     minutes: known(index),
                     change: change(index),
+                    by: by.map(|by| &*by[index]),
                     inside: inside[index].is_some(),
                     building: match inside[index] {
                         Some(Within::Building(number)) => Some(building(number)),

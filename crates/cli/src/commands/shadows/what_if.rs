@@ -4,7 +4,6 @@ mod edits;
 mod told;
 mod written;
 
-use std::io::{self, Write as _};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -25,7 +24,7 @@ use super::places::{Asked, Kind, Places};
 use super::site::Site;
 use super::when::When;
 use super::{Session, wrong_usage};
-use crate::commands::Talk;
+use crate::commands::{Talk, print_json};
 use crate::interrupt;
 
 /// Minutes by place: by cell of a grid, or by point of a list; NaN where there are none.
@@ -94,8 +93,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     let statistics = Statistics::new(args, [&before, &edited.city], &when, &minutes, &effort);
     talk.say(&statistics.line());
     if args.json {
-        let json = serde_json::to_string_pretty(&statistics)?;
-        writeln!(io::stdout(), "{json}")?;
+        print_json(&statistics)?;
     }
     Ok(ExitCode::SUCCESS)
 }

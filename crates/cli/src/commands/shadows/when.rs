@@ -24,10 +24,12 @@ pub(super) struct When {
     ends: Vec<usize>,
     /// The points that stand for the sun, each for the same share of it: one, or those of its disc.
     pub(super) suns: Vec<Sky>,
+    pub(super) is_refracted: bool,
     pub(super) zone: String,
     /// For people: which days and hours.
     pub(super) text: String,
-    /// The first day and the last.
+    /// All days, and the first and the last of them.
+    pub(super) dates: Vec<Date>,
     pub(super) ends_on: [Date; 2],
 }
 
@@ -102,8 +104,10 @@ impl When {
                 .collect(),
             spans,
             suns,
+            is_refracted: args.refraction,
             zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
             text: text(args, &with_ends(&named, days.dates())),
+            dates: days.dates().to_vec(),
             ends_on: [days.dates()[0], days.dates()[days.dates().len() - 1]],
         })
     }

@@ -25,10 +25,10 @@ pub(super) fn write(
         let metadata = metadata(when, args.method, bound(when), unit);
         let change = Some([&before[..], &net[..]]);
         match (OutputKind::of(path), &places.kind) {
-            (OutputKind::GeoJson, _) => with_rows(places, city, after, change, |rows| {
+            (OutputKind::GeoJson, _) => with_rows(places, city, after, change, None, |rows| {
                 write_places_geojson(path, rows, &metadata)
             })?,
-            (OutputKind::Parquet, _) => with_rows(places, city, after, change, |rows| {
+            (OutputKind::Parquet, _) => with_rows(places, city, after, change, None, |rows| {
                 write_places_parquet(path, rows, &metadata)
             })?,
             (OutputKind::GeoTiff, Kind::Grid { grid, .. }) => {

@@ -1,0 +1,187 @@
+//! Which time is asked about, and by how much it counts.
+
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
+use ombra::accrual::Counted;
+use ombra::sun::{Calendar, Days, Hours, Sky, Span, Window};
+
+/// By how much some hours or days count: `12:00-14:00=2`, `2026-12-21=0.5`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Weight {
+    what: String,
+    /// Hours by the clock; days where there are none.
+    hours: Option<Vec<Window>>,
+    weight: f64,
+}
+
+impl Weight {
+    /// From text; days are read later, by whose calendar they are.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        let wanted = "hours or days and a number are wanted, as 12:00-14:00=2 or winter=0.5";
+        let (what, weight) = text.rsplit_once('=').ok_or(wanted)?;
+        let weight = weight.trim().parse().ok();
+        let weight = weight
+            .filter(|weight: &f64| (0.0..=1e6).contains(weight))
+            .ok_or(wanted)?;
+        let hours = if what.contains(':') {
+            Some(Window::list(what).map_err(|error| error.to_string())?)
+        } else {
+            None
+        };
+        let what = what.to_owned();
+        Ok(Self {
+            what,
+            hours,
+            weight,
+        })
+    }
+}
+
+/// Some stretches of time, in order, each with its weight: those of all weights that it lies in, multiplied.
+pub(super) fn weighed(
+    spans: &[Span],
+    weights: &[Weight],
+    dates: &[Date],
+    (sky, zone, calendar): (&Sky, &TimeZone, &Calendar),
+) -> Result<Vec<Counted>, String> {
+    let mut all: Vec<Counted> = spans.iter().map(|&span| Counted::plainly(span)).collect();
+    for weight in weights {
+        let (hours, days) = match &weight.hours {
+            Some(windows) => {
+                let hours = Hours::default().with_windows(windows, &[]);
+                (hours.map_err(|error| error.to_string())?, dates.to_vec())
+            }
+            None => {
+                let days = Days::parse(&weight.what, calendar);
+                let days = days.map_err(|error| format!("--weight {}: {error}", weight.what))?;
+                (Hours::default(), days.dates().to_vec())
+            }
+        };
+        let within: Vec<Span> = days
+            .iter()
+            .flat_map(|&date| hours.spans(sky, zone, date))
+            .collect();
+        all = all
+            .iter()
+            .flat_map(|counted| split(counted, &within, weight.weight))
+            .collect();
+    }
+    Ok(all)
+}
+
+/// The parts of a stretch of time within others, by a weight more, and without.
+fn split(counted: &Counted, within: &[Span], weight: f64) -> Vec<Counted> {
+    let Span { start, end } = counted.span;
+    let mut parts = Vec::new();
+    let mut at = start;
+    let first = within.partition_point(|other| other.end <= start);
+    for other in within[first..].iter().take_while(|other| other.start < end) {
+        let (from, to) = (other.start.max(at), other.end.min(end));
+        if at < from {
+            parts.push(Counted {
+                span: Span::new(at, from),
+                ..*counted
+            });
+        }
+        if from < to {
+            parts.push(Counted {
+                span: Span::new(from, to),
+                weight: counted.weight * weight,
+            });
+            at = to;
+        }
+    }
+    if at < end {
+        parts.push(Counted {
+            span: Span::new(at, end),
+            ..*counted
+        });
+    }
+    parts
+}
+
+/// What two lists of stretches of time, each in order, have in common.
+pub(super) fn common(some: &[Span], others: &[Span]) -> Vec<Span> {
+    let mut all = Vec::new();
+    for span in some {
+        let first = others.partition_point(|other| other.end <= span.start);
+        for other in others[first..]
+            .iter()
+            .take_while(|other| other.start < span.end)
+        {
+            let (from, to) = (span.start.max(other.start), span.end.min(other.end));
+            if from < to {
+                all.push(Span::new(from, to));
+            }
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use ombra::sun::Instant;
+
+    use super::*;
+
+    fn span(from: f64, to: f64) -> Span {
+        Span::new(Instant::from_seconds(from), Instant::from_seconds(to))
+    }
+
+    #[test]
+    fn a_weight_is_hours_or_days_and_a_number() {
+        assert!(Weight::parse("12:00-14:00=2").unwrap().hours.is_some());
+        assert!(Weight::parse("2026-12-21=0").unwrap().hours.is_none());
+        for wrong in [
+            "",
+            "2",
+            "12:00-14:00",
+            "12:00=1",
+            "winter=-1",
+            "winter=x",
+            "winter=inf",
+        ] {
+            assert!(Weight::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn what_is_common_is_in_both() {
+        let some = [span(0.0, 10.0), span(20.0, 30.0)];
+        let others = [span(-5.0, 1.0), span(2.0, 25.0), span(29.0, 40.0)];
+        let expected = [
+            span(0.0, 1.0),
+            span(2.0, 10.0),
+            span(20.0, 25.0),
+            span(29.0, 30.0),
+        ];
+        assert_eq!(common(&some, &others), expected);
+        assert!(common(&some, &[]).is_empty() && common(&[], &others).is_empty());
+    }
+
+    #[test]
+    fn weights_part_time_and_multiply() {
+        let counted = Counted {
+            span: span(0.0, 10.0),
+            weight: 3.0,
+        };
+        let parts = split(
+            &counted,
+            &[span(-1.0, 2.0), span(4.0, 6.0), span(9.0, 20.0)],
+            2.0,
+        );
+        let expected = [
+            (0.0, 2.0, 6.0),
+            (2.0, 4.0, 3.0),
+            (4.0, 6.0, 6.0),
+            (6.0, 9.0, 3.0),
+            (9.0, 10.0, 6.0),
+        ];
+        let expected = expected.map(|(from, to, weight)| Counted {
+            span: span(from, to),
+            weight,
+        });
+        assert_eq!(parts, expected);
+        assert_eq!(split(&counted, &[], 2.0), [counted]);
+    }
+}
