@@ -5,6 +5,7 @@ use serde_json::Value;
 mod asked;
 mod places;
 mod resumed;
+mod spells;
 mod what_if;
 
 use crate::{fail, outside_data, succeed};

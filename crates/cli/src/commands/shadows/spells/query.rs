@@ -275,7 +275,11 @@ fn asked(
     let zone = TimeZone::get(name).with_context(|| format!("time zone {name}"))?;
     let [first, last] = [first.start, last.end].map(|instant| instant.zoned(&zone).date());
     if !asked.names_days() {
-        asked.date = Some(format!("{first}..{last}"));
+        asked.date = Some(if first == last {
+            first.to_string()
+        } else {
+            format!("{first}..{last}")
+        });
     }
     asked.year = asked.year.or(Some(first.year()));
     asked.refraction = about.refraction;
