@@ -9,6 +9,7 @@ use ombra::formats::city::CityOptions;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
+use super::products::ProductsArgs;
 use super::site::SurroundingsArgs;
 use super::what_if::WhatIfArgs;
 
@@ -53,6 +54,9 @@ pub(crate) struct ShadowsArgs {
 
     #[command(flatten)]
     pub(crate) what_if: WhatIfArgs,
+
+    #[command(flatten)]
+    pub(crate) products: ProductsArgs,
 
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
@@ -112,6 +116,12 @@ impl ShadowsArgs {
     /// With how much error fast minutes are content, in percent of the time that the sun is up.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance.unwrap_or(0.5)
+    }
+
+    /// The files that are written.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let own = [&self.output, &self.png].into_iter().flatten();
+        own.map(PathBuf::as_path).chain(self.products.files())
     }
 
     /// The files that are read.
@@ -275,7 +285,7 @@ impl Method {
     }
 }
 
-fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
+pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let own = path
         .extension()
@@ -291,7 +301,7 @@ fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
 }
 
 /// The endings of files of places.
-const GEOJSON: [&str; 2] = ["geojson", "json"];
+pub(super) const GEOJSON: [&str; 2] = ["geojson", "json"];
 const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
 fn output(text: &str) -> Result<PathBuf, String> {

@@ -7,6 +7,7 @@ mod measure;
 mod output;
 mod partial;
 mod places;
+mod products;
 mod reach;
 mod rows;
 mod site;
@@ -44,7 +45,7 @@ const DEMO: &str = "demo";
 
 pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     let is_demo = args.city == DEMO;
-    let asks_for_files = args.output.is_some() || args.png.is_some();
+    let asks_for_files = args.files().next().is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
     let is_tour = is_tour && !args.what_if.is_asked();
     if !is_tour && !args.when.names_days() {
@@ -54,6 +55,7 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
         wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
     }
     refuse_maps_of_no_grid(args);
+    products::refuse(args);
     refuse_what_is_not_used(args);
     refuse_to_write_what_is_read(args);
     if args.resume && !asks_for_files && !is_tour {
@@ -82,7 +84,7 @@ struct Session {
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in [&args.output, &args.png].into_iter().flatten() {
+    for path in args.files() {
         // What would fail in the end fails at once.
         can_write_whole(path)?;
     }
@@ -144,6 +146,15 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         partial.keep(&minutes[..*done])?;
     }
     output::write(args, &city, &places, &when, &measured)?;
+    products::write(&products::Job {
+        args,
+        city: &city,
+        places: &places,
+        when: &when,
+        minutes: products::Minutes::Plain(&places.spread(&measured.minutes)),
+        metadata: output::of_run(args, &when, &measured),
+        talk: &talk,
+    })?;
     if let Some((partial, _)) = kept.as_ref().filter(|_| is_whole) {
         partial.remove()?;
     }
@@ -151,7 +162,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let mut statistics = Statistics::new(args, &city, &places, around, &when, &measured, threads);
     statistics.load_seconds = load_seconds;
     talk.say(&summary(&statistics));
-    if args.output.is_none() && args.png.is_none() && !args.json {
+    if args.files().next().is_none() && !args.json {
         talk.say("nothing was written: -o keeps the minutes (.tif, .geojson, .parquet), --png shadow.png is a map");
     }
     if args.json {
@@ -208,7 +219,7 @@ fn refuse_to_write_what_is_read(args: &ShadowsArgs) {
         let [a, b] = [a, b].map(std::fs::canonicalize);
         a.is_ok_and(|a| b.is_ok_and(|b| a == b))
     };
-    for output in [&args.output, &args.png].into_iter().flatten() {
+    for output in args.files() {
         if args.inputs().any(|input| same(input, output)) {
             wrong_usage(&format!(
                 "{}: is a file that is read; write to another one",

@@ -24,7 +24,7 @@ use super::measure::in_parts;
 use super::places::{Asked, Kind, Places};
 use super::site::Site;
 use super::when::When;
-use super::{Session, wrong_usage};
+use super::{Session, products, wrong_usage};
 use crate::commands::Talk;
 use crate::interrupt;
 
@@ -47,7 +47,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     refuse(args);
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in [&args.output, &args.png].into_iter().flatten() {
+    for path in args.files() {
         can_write_whole(path)?;
     }
     let mut site = cpu.install(|| Site::read(args))?;
@@ -91,6 +91,15 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         return Ok(ExitCode::from(interrupt::EXIT_CODE));
     };
     written::write(args, &edited.city, &after, &when, &minutes)?;
+    products::write(&products::Job {
+        args,
+        city: &edited.city,
+        places: &after,
+        when: &when,
+        minutes: products::Minutes::Change([&minutes.before, &minutes.after, &minutes.net]),
+        metadata: written::of_run(args, &when),
+        talk: &talk,
+    })?;
     let statistics = Statistics::new(args, [&before, &edited.city], &when, &minutes, &effort);
     talk.say(&statistics.line());
     if args.json {
