@@ -70,8 +70,8 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_name = "TIME", value_parser = step)]
     pub(crate) step: Option<f64>,
 
-    /// The title of the map [default: the name of the city's file]
-    #[arg(long, value_name = "TEXT", requires = "png")]
+    /// The title of maps, frames and tiles [default: the name of the city's file]
+    #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
     /// Go on where a run with the same output was interrupted or ended: what it had done lies in OUT.partial
@@ -118,7 +118,7 @@ impl ShadowsArgs {
         self.tolerance.unwrap_or(0.5)
     }
 
-    /// The files that are written.
+    /// The files and folders that are written.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
         let own = [&self.output, &self.png].into_iter().flatten();
         own.map(PathBuf::as_path).chain(self.products.files())

@@ -84,10 +84,8 @@ struct Session {
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in args.files() {
-        // What would fail in the end fails at once.
-        can_write_whole(path)?;
-    }
+    // What would fail in the end fails at once.
+    can_write(args)?;
 
     let begun = Instant::now();
     let site = cpu.install(|| Site::read(args))?;
@@ -103,6 +101,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
     let facets = city.facets();
     let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
+    products::check(args, &city.origin, &places, &when)?;
     let around = cpu.install(|| Reach::new(&facets, surface, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
@@ -148,6 +147,8 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     output::write(args, &city, &places, &when, &measured)?;
     products::write(&products::Job {
         args,
+        session,
+        before: None,
         city: &city,
         places: &places,
         when: &when,
@@ -174,6 +175,14 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     } else {
         interrupt::EXIT_CODE
     }))
+}
+
+/// Whether all outputs could be written now.
+fn can_write(args: &ShadowsArgs) -> anyhow::Result<()> {
+    for path in [&args.output, &args.png].into_iter().flatten() {
+        can_write_whole(path)?;
+    }
+    args.products.can_write()
 }
 
 /// How much surface there is, for people.

@@ -11,7 +11,6 @@ use std::time::Instant;
 
 use ombra::accrual::{Again, Exact, Occluders, Tiles};
 use ombra::city::{Change, City, Edited, Extent};
-use ombra::formats::can_write_whole;
 use ombra::pipeline::Cpu;
 use ombra::sun::{Place, Sheet};
 
@@ -47,9 +46,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     refuse(args);
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in args.files() {
-        can_write_whole(path)?;
-    }
+    super::can_write(args)?;
     let mut site = cpu.install(|| Site::read(args))?;
     let edits = cpu.install(|| args.what_if.read(args, site.origin(), &talk))?;
     cpu.install(|| site.edit(&edits))?;
@@ -67,6 +64,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         talk.say(&format!("{}: {finding}", args.city));
     }
     let places = cpu.install(|| Places::new(&args.places, asked, &before, all, &talk))?;
+    products::check(args, &before.origin, &places, &when)?;
     talk.say(&format!(
         "{}: {} buildings before, {} after; {}; {} day{}, {:.1} h of sun ({})",
         args.city,
@@ -93,6 +91,8 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     written::write(args, &edited.city, &after, &when, &minutes)?;
     products::write(&products::Job {
         args,
+        session,
+        before: Some(&before),
         city: &edited.city,
         places: &after,
         when: &when,
