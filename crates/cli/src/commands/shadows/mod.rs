@@ -145,7 +145,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         partial.keep(&minutes[..*done])?;
     }
     output::write(args, &city, &places, &when, &measured)?;
-    products::write(&products::Job {
+    let are_written = products::write(&products::Job {
         args,
         session,
         before: None,
@@ -170,7 +170,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         let json = serde_json::to_string_pretty(&statistics)?;
         writeln!(io::stdout(), "{json}")?;
     }
-    Ok(ExitCode::from(if is_whole {
+    Ok(ExitCode::from(if is_whole && are_written {
         0
     } else {
         interrupt::EXIT_CODE

@@ -89,7 +89,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         return Ok(ExitCode::from(interrupt::EXIT_CODE));
     };
     written::write(args, &edited.city, &after, &when, &minutes)?;
-    products::write(&products::Job {
+    let are_written = products::write(&products::Job {
         args,
         session,
         before: Some(&before),
@@ -106,7 +106,11 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         let json = serde_json::to_string_pretty(&statistics)?;
         writeln!(io::stdout(), "{json}")?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(ExitCode::from(if are_written {
+        0
+    } else {
+        interrupt::EXIT_CODE
+    }))
 }
 
 const NO_BUILDINGS: &str =

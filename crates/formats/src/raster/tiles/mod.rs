@@ -9,14 +9,14 @@ use ombra_city::{Grid, Origin};
 use crate::error::{Fault, FormatError};
 use mercator::{LATITUDE, PIXEL, Tile, to_square};
 
-/// The most tiles of a set.
-pub const MAX_TILES: u64 = 200_000;
+/// The most tiles of a set: their numbers alone take 6.6 GB.
+pub const MAX_TILES: u64 = 50_000;
 
 /// The zoom at which numbers are published by others, and which all sets have unless told otherwise.
 const COMMON: u8 = 17;
 
 /// The largest zoom.
-const LARGEST: u8 = 24;
+const LARGEST: u8 = 22;
 
 /// Tiles of 256 x 256 pixels over a grid, in Web Mercator (EPSG:3857), at all zooms from the one at which a pixel is no wider than a
 /// cell, and 17 at least, to the one at which a single tile shows all.

@@ -26,7 +26,7 @@ pub(crate) struct ProductsArgs {
     pub(crate) tiles: Option<PathBuf>,
 
     /// The largest zoom of the tiles [default: the first one at which a pixel is no wider than a cell, 17 at least]
-    #[arg(long, value_name = "ZOOM", requires = "tiles", value_parser = clap::value_parser!(u8).range(0..=24))]
+    #[arg(long, value_name = "ZOOM", requires = "tiles", value_parser = clap::value_parser!(u8).range(0..=22))]
     pub(crate) max_zoom: Option<u8>,
 
     /// Where to write the shadows of a day, moment by moment: an animation (.gif), or a folder of pictures

@@ -20,15 +20,15 @@ use crate::progress::Jobs;
 const BLOCK: usize = 1024;
 const PICTURES: usize = 16;
 
-/// Nothing, if it is interrupted.
-pub(super) fn write(job: &Job<'_>, path: &Path, grid: &Grid) -> anyhow::Result<()> {
+/// Whether it was not interrupted; nothing is written if it was.
+pub(super) fn write(job: &Job<'_>, path: &Path, grid: &Grid) -> anyhow::Result<bool> {
     let tiles = &job.places.tiles;
     let moments = moments::of(job.when, job.args.products.every(), tiles.places().len())?;
     let cities = job.before.into_iter().chain([job.city]);
     let shadows: Option<Vec<Shadows>> = cities.map(|city| shadows(job, city, &moments)).collect();
     let Some(shadows) = shadows else {
         job.talk.say("interrupted; no frames written");
-        return Ok(());
+        return Ok(false);
     };
     let mut file = FrameWriter::create(path)?;
     let style = MapStyle {
@@ -90,7 +90,7 @@ pub(super) fn write(job: &Job<'_>, path: &Path, grid: &Grid) -> anyhow::Result<(
         if job.session.stop.load(Ordering::Relaxed) {
             bar.finish();
             job.talk.say("interrupted; no frames written");
-            return Ok(());
+            return Ok(false);
         }
     }
     bar.finish();
@@ -105,7 +105,7 @@ pub(super) fn write(job: &Job<'_>, path: &Path, grid: &Grid) -> anyhow::Result<(
         path.display(),
         moments.len()
     ));
-    Ok(())
+    Ok(true)
 }
 
 /// Of a place at a moment, as a map of [`Scale::MomentOfChange`] has it.
@@ -137,9 +137,17 @@ fn shadows(job: &Job<'_>, city: &City, moments: &[Moment]) -> Option<Shadows> {
     let occluders = cpu.install(|| Occluders::new(&city.facets()));
     let spells = cpu.install(|| Spells::new(&occluders, &job.when.sheets().concat()));
     let words = moments.len().div_ceil(64);
-    let mut bits = Vec::with_capacity(tiles.places().len() * words);
+    let places = tiles.places().len();
+    let mut bits = Vec::with_capacity(places * words);
+    let bar = Jobs::new(!job.args.quiet && io::stderr().is_terminal());
     for first in (0..tiles.len()).step_by(BLOCK) {
+        bar.update(
+            (bits.len() / words) as u64,
+            places as u64,
+            "places of frames",
+        );
         if job.session.stop.load(Ordering::Relaxed) {
+            bar.finish();
             return None;
         }
         let which = first..tiles.len().min(first + BLOCK);
@@ -153,5 +161,6 @@ fn shadows(job: &Job<'_>, city: &City, moments: &[Moment]) -> Option<Shadows> {
             }
         }
     }
+    bar.finish();
     Some(Shadows { bits, words })
 }

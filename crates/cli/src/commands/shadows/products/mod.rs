@@ -74,8 +74,9 @@ impl Job<'_> {
     }
 }
 
-/// Writes all that is asked for.
-pub(super) fn write(job: &Job<'_>) -> anyhow::Result<()> {
+/// Writes all that is asked for; whether it was not interrupted.
+pub(super) fn write(job: &Job<'_>) -> anyhow::Result<bool> {
+    let mut is_whole = true;
     let products = &job.args.products;
     if let Kind::Grid { grid, .. } = &job.places.kind {
         if let Some(path) = &products.contours {
@@ -85,13 +86,13 @@ pub(super) fn write(job: &Job<'_>) -> anyhow::Result<()> {
             tiles::write(job, folder, grid)?;
         }
         if let Some(path) = &products.frames {
-            frames::write(job, path, grid)?;
+            is_whole = frames::write(job, path, grid)?;
         }
     }
     if let Some(path) = &products.glb {
         glb::write(job, path)?;
     }
-    Ok(())
+    Ok(is_whole)
 }
 
 /// Refuses what there is none of.
