@@ -66,7 +66,8 @@ impl Partial {
         let Some(output) = args.files().next() else {
             return Ok(None);
         };
-        let mut name = output.as_os_str().to_owned();
+        // Beside a folder, not in it, if it is typed with a stroke at its end.
+        let mut name = output.components().collect::<PathBuf>().into_os_string();
         name.push(".partial");
         let partial = Self {
             path: name.into(),

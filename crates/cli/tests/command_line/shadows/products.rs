@@ -105,7 +105,7 @@ fn tiles_hold_the_minutes_where_published_data_have_them() {
     }
     assert!(none > 100, "there are buildings");
     // Tiles of ours give way, and nothing else does.
-    shadows(folder, &["--tiles", "tiles", "--max-zoom", "14"]);
+    shadows(folder, &["--tiles", "tiles/", "--max-zoom", "14"]);
     assert!(!folder.join("tiles/17").exists() && folder.join("tiles/14").is_dir());
     std::fs::write(folder.join("tiles/mine.txt"), "").unwrap();
     let again = [&CITY[..], &["--tiles", "tiles"]].concat();
