@@ -4,8 +4,8 @@
 //! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), cities ([`city::read_city`]:
 //! GeoJSON, CityJSON), points and areas ([`city::read_points`], [`city::read_area`]), surface and terrain models
 //! ([`elevation::read_elevation`]: GeoTIFF), and pictures ([`read_texture`], [`read_image`]); out go pictures
-//! ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM), maps ([`raster`]), places ([`places`]) and
-//! their stretches of shadow ([`spells`], which come in again). [`inspect`] says
+//! ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM), maps ([`raster`]), contour lines ([`contour`]), places ([`places`]),
+//! their stretches of shadow ([`spells`], which come in again) and pictures one after another ([`frames`]). [`inspect`] says
 //! what a file holds.
 //! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
 //! [`scene::parse_scene`], which open no file at all.
@@ -28,7 +28,9 @@
 //! [`Finding`].
 
 pub mod city;
+pub mod contour;
 pub mod elevation;
+pub mod frames;
 pub mod minray;
 pub mod places;
 pub mod raster;
@@ -49,10 +51,11 @@ mod mesh;
 mod number;
 mod source;
 mod whole;
+mod whole_folder;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
-pub use glb::{GlbMaterial, GlbMesh, GlbModel};
+pub use glb::{GlbMaterial, GlbMesh, GlbModel, GlbTexture};
 pub use gltf::{GltfFile, GltfInfo, parse_gltf, read_gltf};
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image,

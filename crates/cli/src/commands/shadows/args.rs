@@ -9,6 +9,7 @@ use ombra::formats::city::CityOptions;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
+use super::products::ProductsArgs;
 use super::site::SurroundingsArgs;
 use super::spells::SpellsArgs;
 use super::what_if::WhatIfArgs;
@@ -58,6 +59,9 @@ pub(crate) struct ShadowsArgs {
     #[command(flatten)]
     pub(crate) spells: SpellsArgs,
 
+    #[command(flatten)]
+    pub(crate) products: ProductsArgs,
+
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
@@ -70,8 +74,8 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_name = "TIME", value_parser = step)]
     pub(crate) step: Option<f64>,
 
-    /// The title of the map [default: the name of the city's file]
-    #[arg(long, value_name = "TEXT", requires = "png")]
+    /// The title of maps, frames and tiles [default: the name of the city's file]
+    #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
     /// Go on where a run with the same output was interrupted or ended: what it had done lies in OUT.partial
@@ -103,17 +107,6 @@ impl ShadowsArgs {
         options
     }
 
-    /// The files that are written.
-    pub(super) fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
-        let SpellsArgs {
-            spells,
-            by_building,
-            ..
-        } = &self.spells;
-        let all = [&self.output, &self.png, spells, by_building];
-        all.into_iter().flatten()
-    }
-
     /// Seconds between samples, if there are any.
     pub(crate) fn samples_step(&self) -> Option<f64> {
         (self.method == Method::Sampled).then(|| self.step())
@@ -127,6 +120,22 @@ impl ShadowsArgs {
     /// With how much error fast minutes are content, in percent of the time that the sun is up.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance.unwrap_or(0.5)
+    }
+
+    /// The files and folders that are written.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        self.single_files().chain(self.products.files())
+    }
+
+    /// Those of them that are a file each, put in its place when it is whole.
+    pub(super) fn single_files(&self) -> impl Iterator<Item = &Path> {
+        let SpellsArgs {
+            spells,
+            by_building,
+            ..
+        } = &self.spells;
+        let all = [&self.output, &self.png, spells, by_building];
+        all.into_iter().flatten().map(PathBuf::as_path)
     }
 
     /// The files that are read.
@@ -318,7 +327,7 @@ pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
 }
 
 /// The endings of files of places.
-const GEOJSON: [&str; 2] = ["geojson", "json"];
+pub(super) const GEOJSON: [&str; 2] = ["geojson", "json"];
 const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
 fn output(text: &str) -> Result<PathBuf, String> {

@@ -8,6 +8,7 @@ mod measure;
 mod output;
 mod partial;
 mod places;
+mod products;
 mod reach;
 mod rows;
 mod site;
@@ -53,7 +54,7 @@ pub(crate) fn run(command: &ShadowsCommand) -> anyhow::Result<ExitCode> {
 
 fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     let is_demo = args.city == DEMO;
-    let asks_for_files = args.outputs().next().is_some();
+    let asks_for_files = args.files().next().is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
     let is_tour = is_tour && !args.what_if.is_asked() && !args.spells.is_asked();
     if !is_tour && !args.when.names_days() {
@@ -63,6 +64,7 @@ fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
         wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
     }
     refuse_maps_of_no_grid(args);
+    products::refuse(args);
     refuse_what_is_not_used(args);
     refuse_to_write_what_is_read(args);
     spells::refuse(args);
@@ -92,10 +94,8 @@ struct Session {
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in args.outputs() {
-        // What would fail in the end fails at once.
-        can_write_whole(path)?;
-    }
+    // What would fail in the end fails at once.
+    can_write(args)?;
 
     let begun = Instant::now();
     let site = cpu.install(|| Site::read(args))?;
@@ -111,6 +111,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
     let facets = city.facets();
     let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
+    products::check(args, &city.origin, &places, &when)?;
     let around = cpu.install(|| Reach::new(&facets, surface, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
@@ -173,6 +174,17 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         .as_ref()
         .map(|found| found.spread(&places, &city));
     output::write(args, &city, &places, &when, &measured, by.as_deref())?;
+    let are_written = products::write(&products::Job {
+        args,
+        session,
+        before: None,
+        city: &city,
+        places: &places,
+        when: &when,
+        minutes: products::Minutes::Plain(&places.spread(&measured.minutes)),
+        metadata: output::of_run(args, &when, &measured),
+        talk: &talk,
+    })?;
     if let Some((partial, _)) = kept.as_ref().filter(|_| is_whole) {
         partial.remove()?;
     }
@@ -181,17 +193,25 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     statistics.load_seconds = load_seconds;
     statistics.by_building = attribution.map(|found| found.buildings);
     talk.say(&summary(&statistics));
-    if args.outputs().next().is_none() && !args.json {
+    if args.files().next().is_none() && !args.json {
         talk.say("nothing was written: -o keeps the minutes (.tif, .geojson, .parquet), --png shadow.png is a map");
     }
     if args.json {
         print_json(&statistics)?;
     }
-    Ok(ExitCode::from(if is_whole {
+    Ok(ExitCode::from(if is_whole && are_written {
         0
     } else {
         interrupt::EXIT_CODE
     }))
+}
+
+/// Whether all outputs could be written now.
+fn can_write(args: &ShadowsArgs) -> anyhow::Result<()> {
+    for path in args.single_files() {
+        can_write_whole(path)?;
+    }
+    args.products.can_write()
 }
 
 /// How much surface there is, for people.
@@ -237,7 +257,7 @@ fn refuse_to_write_what_is_read(args: &ShadowsArgs) {
         let [a, b] = [a, b].map(std::fs::canonicalize);
         a.is_ok_and(|a| b.is_ok_and(|b| a == b))
     };
-    for output in args.outputs() {
+    for output in args.files() {
         if args.inputs().any(|input| same(input, output)) {
             wrong_usage(&format!(
                 "{}: is a file that is read; write to another one",

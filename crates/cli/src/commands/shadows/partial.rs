@@ -63,10 +63,11 @@ impl Partial {
         tiles: &Tiles,
         when: &When,
     ) -> anyhow::Result<Option<(Self, Vec<f32>)>> {
-        let Some(output) = args.output.as_ref().or(args.png.as_ref()) else {
+        let Some(output) = args.files().next() else {
             return Ok(None);
         };
-        let mut name = output.clone().into_os_string();
+        // Beside a folder, not in it, if it is typed with a stroke at its end.
+        let mut name = output.components().collect::<PathBuf>().into_os_string();
         name.push(".partial");
         let partial = Self {
             path: name.into(),
