@@ -27,6 +27,7 @@
 //! [`Finding`].
 
 pub mod city;
+pub mod contour;
 pub mod elevation;
 pub mod minray;
 pub mod places;
