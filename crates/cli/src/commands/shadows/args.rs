@@ -9,6 +9,7 @@ use ombra::formats::city::CityOptions;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
+use super::report::ReportArgs;
 use super::site::SurroundingsArgs;
 use super::what_if::WhatIfArgs;
 
@@ -23,7 +24,7 @@ pub(crate) struct ShadowsArgs {
     pub(crate) city: String,
 
     /// Where to write minutes of shadow: a GeoTIFF (.tif), or places as GeoJSON (.geojson) or GeoParquet (.parquet)
-    #[arg(short, long, value_name = "OUT", value_parser = output)]
+    #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 
     /// Where to write a map as a picture (.png)
@@ -53,6 +54,9 @@ pub(crate) struct ShadowsArgs {
 
     #[command(flatten)]
     pub(crate) what_if: WhatIfArgs,
+
+    #[command(flatten)]
+    pub(crate) report: ReportArgs,
 
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
@@ -120,7 +124,8 @@ impl ShadowsArgs {
         let SurroundingsArgs {
             terrain, context, ..
         } = &self.surroundings;
-        let files = [study, points, terrain].into_iter().flatten();
+        let resources = &self.report.resources;
+        let files = [study, points, terrain, resources].into_iter().flatten();
         let files = files.chain(context).chain(&self.what_if.with);
         [Path::new(&self.city)]
             .into_iter()
@@ -207,9 +212,13 @@ pub(crate) struct WhenArgs {
     #[arg(long, value_name = "TIME", default_value = "0min", value_parser = duration)]
     pub(crate) before_sunset: f64,
 
-    /// Only while the sun stands at least so high, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
-    pub(crate) min_altitude: f64,
+    /// At which altitude of the sun's middle, in degrees, it rises: a rule may say so
+    #[arg(skip)]
+    pub(crate) sunrise: f64,
+
+    /// Only while the sun stands at least so high, in degrees [default: 0; with --report bre 10]
+    #[arg(long, value_name = "DEGREES")]
+    pub(crate) min_altitude: Option<f64>,
 
     /// The time zone of the clock: Europe/Berlin [default: that of the place]
     #[arg(long, value_name = "ZONE")]
@@ -294,7 +303,8 @@ fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
 const GEOJSON: [&str; 2] = ["geojson", "json"];
 const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
-fn output(text: &str) -> Result<PathBuf, String> {
+/// What minutes of shadow are written to; a report has names of its own.
+pub(crate) fn output(text: &str) -> Result<PathBuf, String> {
     ends_in(text, &[&["tif", "tiff"][..], &GEOJSON, &PARQUET].concat())
 }
 
