@@ -114,7 +114,7 @@ mod tests {
         assert_eq!(a, [span(0.0, 3.0), span(5.0, 7.0)]);
         let b = [span(-1.0, 1.0), span(2.0, 6.0)];
         assert_eq!(
-            intersection(&a, &b),
+            Span::intersection(&a, &b),
             [span(0.0, 1.0), span(2.0, 3.0), span(5.0, 6.0)]
         );
         assert_eq!(Span::difference(&a, &b), [span(1.0, 2.0), span(6.0, 7.0)]);
