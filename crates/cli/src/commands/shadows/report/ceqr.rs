@@ -293,11 +293,11 @@ fn rule() -> RuleText {
     RuleText {
         title: "Incremental shadow (New York, CEQR)",
         sources: &[
-            "City Environmental Quality Review Technical Manual, Mayor's Office of Environmental Coordination, City of New York;              2021 edition (first so in that of 2010), chapter 8, Shadows",
+            "City Environmental Quality Review Technical Manual, Mayor's Office of Environmental Coordination, City of New York; 2021 edition (first so in that of 2010), chapter 8, Shadows",
         ],
         conventions: vec![
             "Incremental shadow is shadow that lies on a place with the change and does not without it.".to_owned(),
-            "From an hour and a half after sunrise to an hour and a half before sunset. Sunrise and sunset are those of almanacs: the              upper edge of the sun, with 34' of refraction, on a level horizon."
+            "From an hour and a half after sunrise to an hour and a half before sunset. Sunrise and sunset are those of almanacs: the upper edge of the sun, with 34' of refraction, on a level horizon."
                 .to_owned(),
             "Standard time all year: the manual does not use daylight saving time.".to_owned(),
             "March 21 stands for September 21 as well, May 6 for August 6.".to_owned(),

@@ -1,5 +1,7 @@
 //! The map of a report: what stands around, what is protected, what is new, as SVG.
 
+mod cells;
+
 use std::fmt::Write as _;
 
 use base64::Engine as _;
@@ -8,6 +10,8 @@ use ombra::city::{Building, Extent, Grid, Part};
 use ombra_study::html::escaped;
 
 use super::resources::Area;
+pub(super) use cells::Cells;
+use cells::{STEPS, colour, picture};
 
 /// How wide a map is, in units of its own.
 const WIDTH: f64 = 900.0;
@@ -19,14 +23,6 @@ pub(super) struct MapDrawing {
     /// Units of the map to a metre.
     scale: f64,
     body: String,
-}
-
-/// Values of the cells of a grid, and the value of the strongest colour.
-pub(super) struct Cells<'a> {
-    pub(super) grid: &'a Grid,
-    /// NaN where there is none.
-    pub(super) values: &'a [f32],
-    pub(super) most: f32,
 }
 
 impl MapDrawing {
@@ -79,7 +75,7 @@ impl MapDrawing {
             (0..2).all(|k| f64::from(from[k]) <= high[k] && low[k] <= f64::from(to[k]))
         };
         let seen = buildings.into_iter().filter(is_seen);
-        let rings: Vec<Vec<[f64; 2]>> = seen.flat_map(|building| outline(building)).collect();
+        let rings: Vec<Vec<[f64; 2]>> = seen.flat_map(outline).collect();
         self.path(rings.iter().map(Vec::as_slice), true, attributes);
     }
 
@@ -95,14 +91,19 @@ impl MapDrawing {
         }
     }
 
-    /// A dot where something is so, and what.
+    /// A dot where something is so, and what, beside it.
     pub(super) fn mark(&mut self, place: [f64; 2], text: &str) {
         let [x, y] = self.at(place);
         let _ = writeln!(
             self.body,
             "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\" class=\"mark\"/>"
         );
-        self.label([x, y - 9.0], text);
+        let text = escaped(text);
+        let (x, y) = (x + 9.0, y + 5.0);
+        let _ = writeln!(
+            self.body,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"left\">{text}</text>"
+        );
     }
 
     /// Letters at a place of the map, in its own units.
@@ -232,41 +233,6 @@ fn is_wide(ring: &[[f64; 2]]) -> bool {
         .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
         .sum();
     twice > 0.1
-}
-
-/// So many colours.
-const STEPS: u8 = 12;
-
-/// From pale to dark blue: 1 to [`STEPS`].
-fn colour(step: u8) -> [u8; 3] {
-    let share = f64::from(step) / f64::from(STEPS);
-    let (pale, dark) = ([214.0, 226.0, 244.0], [24.0, 32.0, 110.0]);
-    [0, 1, 2].map(|k| (pale[k] + share * (dark[k] - pale[k])) as u8)
-}
-
-/// A PNG of the cells, with nothing where the value is 0 or none.
-fn picture(cells: &Cells<'_>) -> Vec<u8> {
-    let step = |&value: &f32| {
-        if !(value > 0.0) {
-            return 0;
-        }
-        let share = (value / cells.most).clamp(0.0, 1.0);
-        (share * f32::from(STEPS)).ceil().max(1.0) as u8
-    };
-    let pixels: Vec<u8> = cells.values.iter().map(step).collect();
-    let palette: Vec<u8> = (0..=STEPS).flat_map(colour).collect();
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, cells.grid.width, cells.grid.height);
-    encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette(palette);
-    encoder.set_trns(vec![0]);
-    let written = encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(&pixels));
-    // A list takes all bytes, and there is one for each cell.
-    written.expect("a picture in memory is written");
-    file
 }
 
 #[cfg(test)]

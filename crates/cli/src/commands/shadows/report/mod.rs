@@ -4,6 +4,7 @@ mod args;
 mod bre;
 mod ceqr;
 mod clock;
+mod facts;
 mod frame;
 mod japan;
 mod map;
@@ -22,12 +23,13 @@ use study::Study;
 use written::Outputs;
 
 use super::args::{Method, ShadowsArgs};
-use super::{Session, refuse_to_write_what_is_read, wrong_usage};
+use super::{Session, refuse_to_write_what_is_read, refuse_what_is_not_used, wrong_usage};
 use crate::commands::{Talk, command};
 use crate::interrupt;
 
 pub(super) fn run(args: &ShadowsArgs, rule: Rule) -> anyhow::Result<ExitCode> {
     refuse(args, rule);
+    refuse_what_is_not_used(args);
     let outputs = Outputs::of(args.output.as_deref());
     refuse_to_write_what_is_read(args, outputs.paths());
     let session = Session::new(args)?;

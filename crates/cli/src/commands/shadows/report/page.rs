@@ -18,7 +18,7 @@ figcaption { font-size: .9rem; margin-top: .3rem; }
 code { overflow-wrap: anywhere; }
 .findings { border-left: 4px solid #c60; padding-left: 1rem; }
 @media print {
-  @page { margin: 14mm; }
+  @page { size: landscape; margin: 12mm; }
   :root { color-scheme: light; }
   body { font-size: 10pt; max-width: none; padding: 0; }
   table { font-size: 8pt; } thead { display: table-header-group; } tr { break-inside: avoid; }
@@ -40,6 +40,13 @@ pub(super) fn html(report: &Report, command: &str) -> String {
     let rows: Vec<Vec<String>> = report.table.rows.iter().map(row).collect();
     let title = report.rule.title;
     let mut content = format!("<h1>{}</h1>\n", escaped(title));
+    let about =
+        ["city", "change", "when"].map(|key| report.facts.iter().find(|fact| fact.key == key));
+    let about = about
+        .into_iter()
+        .flatten()
+        .map(|fact| escaped(&fact.cell.shown));
+    let _ = writeln!(content, "<p>{}</p>", about.collect::<Vec<_>>().join(" · "));
     content += &list("", &report.summary);
     if !report.findings.is_empty() {
         let findings = list("", &report.findings);

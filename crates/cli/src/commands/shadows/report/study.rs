@@ -10,15 +10,13 @@ use ombra::pipeline::Cpu;
 use ombra::sun::{Place, Sheet, Span};
 use serde_json::{Value, json};
 
-use super::super::Session;
 use super::super::args::ShadowsArgs;
-use super::super::output::EXACT;
 use super::super::places::{Asked, Places};
 use super::super::site::Site;
 use super::super::when::{When, calendar};
+use super::super::{Session, wrong_usage};
 use super::args::Rule;
-use super::clock::Clock;
-use super::frame::{Cell, Fact, rounded};
+use super::frame::rounded;
 use super::map::MapDrawing;
 use super::resources::{self, Resource};
 use super::{bre, ceqr, japan, prop_k};
@@ -61,6 +59,9 @@ impl<'a> Study<'a> {
             Rule::Japan => japan::when(args, &calendar)?,
         };
         let when = cpu.install(|| When::new(&when, place, None))?;
+        if rule == Rule::Bre && when.days != 1 {
+            wrong_usage("--report bre: one day is wanted, as --date 2026-03-21");
+        }
         let all = cpu.install(|| site.extent());
         let asked = match &args.places.points {
             Some(_) => Some(Asked::read(&args.places, site.origin(), all, talk)?),
@@ -161,72 +162,6 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// What is so of all reports.
-    pub(super) fn facts(&self, clock: &Clock) -> Vec<Fact> {
-        let fact = |key, name, cell| Fact { key, name, cell };
-        let edits = &self.args.what_if;
-        let with = edits
-            .with
-            .iter()
-            .map(|path| format!("with {}", path.display()));
-        let without = edits.without.iter().map(|name| format!("without {name}"));
-        let heights = edits.height.iter();
-        let heights = heights.map(|(name, metres)| format!("{name} {metres} m tall"));
-        let change: Vec<String> = with.chain(without).chain(heights).collect();
-        let instants = self
-            .when
-            .spans
-            .iter()
-            .flat_map(|span| [span.start, span.end]);
-        let origin = &self.before.origin;
-        let (latitude, longitude) = (origin.latitude(), origin.longitude());
-        let mut facts = vec![
-            fact("city", "City", Cell::text(&self.args.city)),
-            fact(
-                "change",
-                "Change",
-                match change.is_empty() {
-                    true => Cell::shown(Value::Null, "none"),
-                    false => Cell::text(change.join(", ")),
-                },
-            ),
-            fact(
-                "place",
-                "Where the sun is reckoned for",
-                Cell::text(format!("{latitude:.5}° north, {longitude:.5}° east")),
-            ),
-            fact("when", "Days and hours", Cell::text(&self.when.text)),
-            fact("time_zone", "Time zone", Cell::text(&self.when.zone)),
-            fact("clock", "Times are in", Cell::text(clock.name(instants))),
-        ];
-        if self.args.places.points.is_none() {
-            let places: usize = self.resources.iter().map(Resource::places).sum();
-            let cell = self.args.places.cell;
-            facts.push(fact(
-                "cell_m",
-                "Places are apart, metres",
-                Cell::number(cell, 2),
-            ));
-            facts.push(fact("places", "Places measured", Cell::count(places)));
-            facts.push(fact("areas", "What areas mean", Cell::text(AREAS)));
-        }
-        facts.push(fact(
-            "method",
-            "Method",
-            Cell::text(
-                "exact: when each wall begins and ends to cover the sun, no instants are sampled",
-            ),
-        ));
-        let air = if self.args.when.refraction {
-            "lifted by the air of the sea"
-        } else {
-            "without refraction"
-        };
-        let bound = format!("{EXACT}; the sun is {}, {air}", self.when.sun());
-        facts.push(fact("bound", "Bound of error", Cell::text(bound)));
-        facts
-    }
-
     /// A map with what stands, what comes, what goes, and the areas, drawn over `under`.
     pub(super) fn map(&self, under: impl FnOnce(&mut MapDrawing)) -> MapDrawing {
         let corner = |at: [f32; 2]| at.map(f64::from);
@@ -294,11 +229,6 @@ impl<'a> Study<'a> {
         cells
     }
 }
-
-/// What the grid of places means for areas.
-const AREAS: &str = "each area is covered by a grid of places, the middles of square cells; those that lie in a building are left out, \
-     and each place stands for an equal part of the area. A share of an area is a share of its places: where the edge of a shadow \
-     is, it is off by up to half a cell";
 
 /// How far it is, for whoever looks, and whether it goes on.
 pub(super) struct Progress<'a> {
