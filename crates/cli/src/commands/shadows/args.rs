@@ -70,8 +70,8 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_name = "TIME", value_parser = step)]
     pub(crate) step: Option<f64>,
 
-    /// The title of the map [default: the name of the city's file]
-    #[arg(long, value_name = "TEXT", requires = "png")]
+    /// The title of maps, frames and tiles [default: the name of the city's file]
+    #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
     /// Go on where a run with the same output was interrupted or ended: what it had done lies in OUT.partial

@@ -72,7 +72,7 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
         figures.map(|((day, spans), minutes)| figure(study, *day, spans, minutes, &clock));
     Some(Report {
         rule: rule(),
-        facts: study.facts(&clock),
+        facts: study.facts_of_areas(&clock),
         table: Table {
             name: "Incremental shadow",
             columns: columns(),

@@ -33,7 +33,12 @@ impl Study<'_> {
             .flat_map(|span| [span.start, span.end]);
         let origin = &self.before.origin;
         let (latitude, longitude) = (origin.latitude(), origin.longitude());
-        let mut facts = vec![
+        let title = self.args.title.as_ref();
+        let mut facts: Vec<Fact> = title
+            .map(|title| fact("title", "Title", Cell::text(title)))
+            .into_iter()
+            .collect();
+        facts.extend([
             fact("city", "City", Cell::text(&self.args.city)),
             fact(
                 "change",
@@ -55,18 +60,7 @@ impl Study<'_> {
             ),
             fact("time_zone", "Time zone", Cell::text(&self.when.zone)),
             fact("clock", "Times are in", Cell::text(clock.name(instants))),
-        ];
-        if self.args.places.points.is_none() {
-            let places: usize = self.resources.iter().map(Resource::places).sum();
-            let cell = self.args.places.cell;
-            facts.push(fact(
-                "cell_m",
-                "Places are apart, metres",
-                Cell::number(cell, 2),
-            ));
-            facts.push(fact("places", "Places measured", Cell::count(places)));
-            facts.push(fact("areas", "What areas mean", Cell::text(AREAS)));
-        }
+        ]);
         facts.push(fact(
             "method",
             "Method",
@@ -81,6 +75,34 @@ impl Study<'_> {
         };
         let bound = format!("{EXACT}; the sun is {}, {air}", self.when.sun());
         facts.push(fact("bound", "Bound of error", Cell::text(bound)));
+        if let Some(around) = &self.around {
+            let value = serde_json::to_value(around).unwrap_or(Value::Null);
+            let cell = Cell::shown(value, around.describe());
+            facts.push(fact("surroundings", "What lies beyond the file", cell));
+        }
         facts
+    }
+
+    /// The same of reports about areas.
+    pub(super) fn facts_of_areas(&self, clock: &Clock) -> Vec<Fact> {
+        let places = self.resources.iter().map(Resource::places).sum();
+        let mut facts = self.facts(clock);
+        facts.extend(self.facts_of_grid(places));
+        facts.push(Fact {
+            key: "areas",
+            name: "What areas mean",
+            cell: Cell::text(AREAS),
+        });
+        facts
+    }
+
+    /// How fine the places lie, and how many there are.
+    pub(super) fn facts_of_grid(&self, places: usize) -> [Fact; 2] {
+        let fact = |key, name, cell| Fact { key, name, cell };
+        let cell = Cell::number(self.args.places.cell, 2);
+        [
+            fact("cell_m", "Places are apart, metres", cell),
+            fact("places", "Places measured", Cell::count(places)),
+        ]
     }
 }

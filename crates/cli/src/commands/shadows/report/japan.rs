@@ -97,6 +97,8 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
         ));
     }
     let mut facts = study.facts(&clock);
+    let places = found.hours.iter().filter(|hours| !hours.is_nan()).count();
+    facts.extend(study.facts_of_grid(places));
     let number = |key, name, value| Fact {
         key,
         name,

@@ -181,7 +181,7 @@ impl MapDrawing {
 }
 
 const STYLE: &str = "\
-.stands{fill:#d9d6cf;stroke:#aaa59a;stroke-width:.6}\
+.stands{fill:#d9d6cf;stroke:#b3aea4;stroke-width:.4}\
 .new{fill:#e07b39;stroke:#8a3c07;stroke-width:1.2;fill-opacity:.85}\
 .gone{fill:none;stroke:#8a3c07;stroke-width:1.2;stroke-dasharray:5 3}\
 .area{fill:none;stroke:#1d7a3a;stroke-width:2.2;fill-rule:evenodd}\

@@ -38,15 +38,16 @@ pub(super) fn html(report: &Report, command: &str) -> String {
         cells.collect::<Vec<_>>()
     };
     let rows: Vec<Vec<String>> = report.table.rows.iter().map(row).collect();
-    let title = report.rule.title;
+    let fact = |key| report.facts.iter().find(|fact| fact.key == key);
+    let own = fact("title").map(|title| title.cell.shown.as_str());
+    let title = own.unwrap_or(report.rule.title);
     let mut content = format!("<h1>{}</h1>\n", escaped(title));
-    let about =
-        ["city", "change", "when"].map(|key| report.facts.iter().find(|fact| fact.key == key));
-    let about = about
-        .into_iter()
-        .flatten()
-        .map(|fact| escaped(&fact.cell.shown));
-    let _ = writeln!(content, "<p>{}</p>", about.collect::<Vec<_>>().join(" · "));
+    // What it is by, if that is not the title, and what of.
+    let rule = own.map(|_| report.rule.title);
+    let about = ["city", "change", "when"].into_iter().filter_map(fact);
+    let about = about.map(|fact| fact.cell.shown.as_str());
+    let about: Vec<&str> = rule.into_iter().chain(about).collect();
+    let _ = writeln!(content, "<p>{}</p>", escaped(&about.join(" · ")));
     content += &list("", &report.summary);
     if !report.findings.is_empty() {
         let findings = list("", &report.findings);

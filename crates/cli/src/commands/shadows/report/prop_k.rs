@@ -72,7 +72,7 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
     more.insert("parks".to_owned(), parks.into());
     Some(Report {
         rule: rule(study),
-        facts: study.facts(&clock),
+        facts: study.facts_of_areas(&clock),
         table: Table {
             name: "Shadow of the year",
             columns: columns(),

@@ -6,12 +6,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anyhow::bail;
 use ombra::accrual::{Again, Ground, Occluders, Tiles};
 use ombra::city::{Building, Change, City, Edited, Extent, Inside};
+use ombra::geometry::{Aabb, Point3};
 use ombra::pipeline::Cpu;
 use ombra::sun::{Place, Sheet, Span};
 use serde_json::{Value, json};
 
 use super::super::args::ShadowsArgs;
 use super::super::places::{Asked, Places};
+use super::super::reach::Reach;
 use super::super::site::Site;
 use super::super::when::{When, calendar};
 use super::super::{Session, wrong_usage};
@@ -34,6 +36,8 @@ pub(super) struct Study<'a> {
     pub(super) resources: Vec<Resource>,
     /// Those of `--points`.
     pub(super) points: Option<Places>,
+    /// How far the city reaches around the places, if it matters.
+    pub(super) around: Option<Reach>,
 }
 
 impl<'a> Study<'a> {
@@ -81,7 +85,7 @@ impl<'a> Study<'a> {
             let [low, high] = area.within.bounds();
             extent = extent.with(low).with(high);
         }
-        let lowest = when.lowest_altitude();
+        let (lowest, surface) = (when.lowest_altitude(), site.surface());
         let (before, edited, _) = cpu.install(|| site.cities(extent, lowest))?;
         if is_changed && edited.is_none() {
             bail!(
@@ -98,13 +102,24 @@ impl<'a> Study<'a> {
         let cell = args.places.cell;
         let after = after.unwrap_or(&before);
         let resource = |area| cpu.install(|| Resource::new(area, cell, &before, after));
-        let resources = areas.into_iter().map(resource).collect();
+        let resources: Vec<Resource> = areas.into_iter().map(resource).collect();
         let points = asked.map(|asked| Places::new(&args.places, asked, after, all, talk));
+        let points = points.transpose()?;
+        let tiles = points.iter().map(|points| &points.tiles);
+        let tiles = tiles.chain(resources.iter().map(|resource| &resource.tiles));
+        let ends = ends(tiles.flat_map(Tiles::places));
+        // Of proposed buildings alone all is known.
+        let ends = ends.filter(|_| rule != Rule::Japan);
+        let reach = |ends: [Point3; 2]| {
+            let tiles = Tiles::near(&ends);
+            cpu.install(|| Reach::new(&before.facets(), surface, &tiles, &when))
+        };
         Ok(Self {
             args,
             session,
+            around: ends.map(reach),
             when,
-            points: points.transpose()?,
+            points,
             resources,
             edited,
             before,
@@ -228,6 +243,12 @@ impl<'a> Study<'a> {
         }
         cells
     }
+}
+
+/// The lowest and the highest corner of the box around places.
+fn ends<'p>(places: impl Iterator<Item = &'p Point3>) -> Option<[Point3; 2]> {
+    let around = Aabb::around(places.copied());
+    (!around.is_empty()).then_some([around.min, around.max])
 }
 
 /// How far it is, for whoever looks, and whether it goes on.

@@ -310,6 +310,21 @@ fn a_report_is_three_files_that_need_nothing_else() {
     {
         assert!(html.contains(said), "{said}");
     }
+    let more = [
+        "park.geojson",
+        "-o",
+        "titled.html",
+        "--title",
+        "Tower & Park",
+    ];
+    succeed(folder, &[&["shadows"], &CEQR[..], &more].concat());
+    let titled = read("titled.html");
+    assert!(titled.contains("<h1>Tower &amp; Park</h1>"));
+    assert!(
+        titled.contains(
+            "<p>Incremental shadow (New York, CEQR) · city.geojson · with tower.geojson · "
+        )
+    );
     // The only address in it is the name of SVG.
     let addresses = html.matches("http").count();
     assert_eq!(

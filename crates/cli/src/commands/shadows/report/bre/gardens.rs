@@ -2,6 +2,7 @@
 
 use ombra::accrual::{Exact, Occluders};
 use ombra::city::City;
+use ombra::formats::contour::contour_lines;
 
 use super::super::clock::Clock;
 use super::super::frame::{Cell, Column, Figure, Report, RuleText, Table};
@@ -50,7 +51,7 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
         .filter(|(resource, _)| resource.nothing().is_none());
     Some(Report {
         rule: rule(study),
-        facts: study.facts(&clock),
+        facts: study.facts_of_areas(&clock),
         table: Table {
             name: "Sun in gardens and amenity areas",
             columns: columns(),
@@ -189,21 +190,26 @@ fn columns() -> Vec<Column> {
 
 fn figure(study: &Study<'_>, found: &[Garden]) -> Figure {
     let most = study.when.hours();
+    let shadow = |garden: &Garden| -> Vec<f64> {
+        let hours = garden.sun.iter().map(|sun| (most - sun / 3600.0).max(0.0));
+        hours.collect()
+    };
     let map = study.map(|map| {
         for (resource, garden) in study.resources.iter().zip(found) {
-            let values = Study::spread(
-                resource,
-                garden.sun.iter().map(|sun| (most - sun / 3600.0).max(0.0)),
-            );
+            let values = Study::spread(resource, shadow(garden));
             map.cells(&Cells {
                 grid: &resource.grid,
                 values: &values,
                 most: most as f32,
             });
+            let line = (most - ENOUGH / 3600.0) as f32;
+            for contour in contour_lines(&resource.grid, &values, &[line]) {
+                map.path([contour.points.as_slice()], false, "class=\"limit\"");
+            }
         }
     });
     let caption = format!(
-        "{}: shadow of the {most:.1} h of sun that count, on each place.",
+        "{}: shadow of the {most:.1} h of sun that count, on each place; in red where there are just 2 h of sun.",
         study.when.text
     );
     Figure {
