@@ -19,7 +19,7 @@ use crate::ways::{TOGETHER, Ways};
 
 /// Tiles in whose sight the same is near are looked at together. Those are at most so many, in a box no longer than so many metres.
 pub(crate) const TILES: usize = 4;
-const NEAR: f32 = 16.0;
+pub(crate) const NEAR: f32 = 16.0;
 
 /// Measures the shadow of polygons at places, exactly in time.
 #[derive(Debug)]

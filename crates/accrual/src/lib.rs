@@ -28,5 +28,5 @@ pub use ground::Ground;
 pub use occluder::Occluders;
 pub use on_faces::OnFaces;
 pub use sampled::{Sampled, Samples};
-pub use spells::{Spells, Stretch, Stretches};
+pub use spells::{Counted, Share, Spells, Stretch, Stretches, Summary};
 pub use tiles::Tiles;

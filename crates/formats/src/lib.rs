@@ -4,7 +4,8 @@
 //! ([`read_model`]: OBJ with MTL, PLY, STL), glTF ([`read_gltf`]), cities ([`city::read_city`]:
 //! GeoJSON, CityJSON), points and areas ([`city::read_points`], [`city::read_area`]), surface and terrain models
 //! ([`elevation::read_elevation`]: GeoTIFF), and pictures ([`read_texture`], [`read_image`]); out go pictures
-//! ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM), maps ([`raster`]) and places ([`places`]). [`inspect`] says
+//! ([`OutputFile`], [`write_image`]: PNG, EXR, PFM, PPM), maps ([`raster`]), places ([`places`]) and
+//! their stretches of shadow ([`spells`], which come in again). [`inspect`] says
 //! what a file holds.
 //! What is in memory is read by [`read_model_bytes`], [`read_texture_bytes`], [`read_image_bytes`] and
 //! [`scene::parse_scene`], which open no file at all.
@@ -34,7 +35,9 @@ pub mod places;
 pub mod raster;
 pub mod scene;
 pub mod sha256;
+pub mod spells;
 
+mod columns;
 mod error;
 mod finding;
 mod glb;

@@ -5,6 +5,7 @@
 
 use arrayvec::ArrayVec;
 
+use super::bits::bits;
 use super::dispatch::Job;
 use super::lanes::Lanes;
 use super::walk::{Waiting, clear, walk};
@@ -95,13 +96,4 @@ fn ask(cover: &mut Cover, arcs: usize) -> u64 {
     }
     cover.full |= !asked;
     asked
-}
-
-/// Which bits are set.
-fn bits(mut left: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let bit = (left != 0).then(|| left.trailing_zeros() as usize);
-        left &= left.wrapping_sub(1);
-        bit
-    })
 }

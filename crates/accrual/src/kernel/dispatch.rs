@@ -5,9 +5,12 @@ use ombra_geometry::Aabb;
 
 use super::differs::differs;
 use super::lanes::{Lanes, Pair, Portable};
-use super::stretches::{Found, Record, find};
+use super::near::Nears;
+use super::stretches::{Record, Seen, find};
 use super::walk::{Waiting, clear, reaches, walk};
+use super::whose::{Entry, Group, Whose, whose};
 use crate::cover::Cover;
+use crate::exact::TILES;
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile};
 use crate::ways::{TOGETHER, Ways};
@@ -73,17 +76,25 @@ mod x86 {
     /// # Safety
     /// - The processor has AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn find_avx2(job: Job<'_>, room: &mut FindRoom) {
+    pub(super) unsafe fn find_avx2(
+        job: Job<'_>,
+        room: &mut FindRoom,
+        show: &mut dyn FnMut(&Shown<'_>),
+    ) {
         // SAFETY: the caller's promise.
-        unsafe { find_with::<Avx2, Pair<Avx2>>(job, room) }
+        unsafe { find_with::<Avx2, Pair<Avx2>>(job, room, show) }
     }
 
     /// # Safety
     /// - The processor has AVX2 and AVX-512 F.
     #[target_feature(enable = "avx2,avx512f")]
-    pub(super) unsafe fn find_avx512(job: Job<'_>, room: &mut FindRoom) {
+    pub(super) unsafe fn find_avx512(
+        job: Job<'_>,
+        room: &mut FindRoom,
+        show: &mut dyn FnMut(&Shown<'_>),
+    ) {
         // SAFETY: the caller's promise.
-        unsafe { find_with::<Avx2, Avx512>(job, room) }
+        unsafe { find_with::<Avx2, Avx512>(job, room, show) }
     }
 }
 
@@ -165,59 +176,102 @@ unsafe fn add<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut Room, seconds: &mut S
 /// What a search for stretches needs besides, kept between searches.
 #[derive(Debug)]
 pub(crate) struct FindRoom {
-    covers: Box<[Cover; 2]>,
+    seen: Vec<Seen>,
     waiting: Vec<Waiting>,
-    found: Found,
+    records: Vec<Record>,
+    entries: Vec<Entry>,
+    groups: Vec<Group>,
+    nears: Vec<Nears>,
 }
 
 impl FindRoom {
     pub(crate) fn new() -> Self {
         Self {
-            covers: Box::new([Cover::new(), Cover::new()]),
+            seen: (0..TILES).map(|_| Seen::new()).collect(),
             waiting: Vec::new(),
-            found: Found::default(),
+            records: Vec::new(),
+            entries: Vec::new(),
+            groups: Vec::new(),
+            nears: Vec::new(),
         }
     }
 }
 
-/// What covers the way, which is the only one, of the tile, which is the only one: of all that is nearest to a place at any time is among it,
-/// and something of another owner as well, if there is.
-pub(crate) fn find_stretches<'a>(
+/// What there is to know of one arc of one tile.
+pub(crate) struct Shown<'a> {
+    pub(crate) tile: usize,
+    pub(crate) arc: usize,
+    pub(crate) whose: Whose,
+    /// Of all that is nearest to a place at any time it is among them, and something of another owner as well, if there is.
+    pub(crate) entries: &'a [Entry],
+    /// What the entries are of.
+    pub(crate) records: &'a [Record],
+    /// How near each of the entries is, if it is not plain for all places whose shadow it is.
+    pub(crate) nears: &'a [Nears],
+}
+
+/// Finds what covers the way, which is the only one, for tiles: of each, one after another, each arc is shown in order.
+pub(crate) fn find_stretches(
     level: Level,
     job: Job<'_>,
-    room: &'a mut FindRoom,
-) -> &'a mut [Record] {
+    room: &mut FindRoom,
+    show: &mut dyn FnMut(&Shown<'_>),
+) {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a level is one that this machine has.
-        Level::Avx2 => unsafe { x86::find_avx2(job, room) },
+        Level::Avx2 => unsafe { x86::find_avx2(job, room, show) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Level::Avx512 => unsafe { x86::find_avx512(job, room) },
+        Level::Avx512 => unsafe { x86::find_avx512(job, room, show) },
         // SAFETY: every processor has these.
-        _ => unsafe { find_with::<Portable, Pair<Portable>>(job, room) },
+        _ => unsafe { find_with::<Portable, Pair<Portable>>(job, room, show) },
     }
-    &mut room.found.records
 }
 
 /// # Safety
 /// - The processor has the instructions of both.
 #[inline(always)]
-unsafe fn find_with<N: Lanes, P: Lanes>(job: Job<'_>, room: &mut FindRoom) {
+unsafe fn find_with<N: Lanes, P: Lanes>(
+    job: Job<'_>,
+    room: &mut FindRoom,
+    show: &mut dyn FnMut(&Shown<'_>),
+) {
     let FindRoom {
-        covers,
+        seen,
         waiting,
-        found,
+        records,
+        entries,
+        groups,
+        nears,
     } = room;
+    let (occluders, tiles) = (job.occluders, job.tiles);
+    let seen = &mut seen[..tiles.len()];
     // SAFETY: the caller's promise.
-    unsafe {
-        find::<N, P>(
-            job.occluders,
-            job.ways,
-            &job.tiles[0],
-            covers,
-            waiting,
-            found,
-        )
-    };
+    unsafe { find::<N, P>(occluders, job.ways, tiles, seen, waiting, records) };
+    let way = &job.ways.list()[0];
+    for (tile, seen) in seen.iter().enumerate() {
+        for arc in 0..way.len() {
+            entries.clear();
+            let mut next = seen.last[arc];
+            while let Some(index) = next {
+                let record = &records[index as usize];
+                let owner = record.owner;
+                entries.push(Entry { owner, index });
+                next = record.before;
+            }
+            entries.sort_unstable();
+            let (list, at) = (&occluders.list, &tiles[tile]);
+            // SAFETY: as above; the records were found here.
+            let whose = unsafe { whose::<P>(list, at, way, arc, records, entries, groups, nears) };
+            show(&Shown {
+                tile,
+                arc,
+                whose,
+                entries,
+                records,
+                nears,
+            });
+        }
+    }
 }

@@ -16,7 +16,7 @@ type Vectors<P> = [P; 3];
 /// # Safety
 /// - The processor has the instructions of `P`; so below.
 #[inline(always)]
-unsafe fn dot<P: Lanes>([x, y, z]: Vectors<P>, [a, b, c]: [f32; 3]) -> P {
+pub(super) unsafe fn dot<P: Lanes>([x, y, z]: Vectors<P>, [a, b, c]: [f32; 3]) -> P {
     // SAFETY: the caller's promise.
     unsafe {
         (x.times(P::splat(a)))
@@ -44,7 +44,10 @@ unsafe fn plane<P: Lanes>([x, y, z]: [f32; 3], [dx, dy, dz]: Vectors<P>) -> Vect
 }
 
 /// What is done with stretches of time in which a polygon covers the sun, beside the covering.
-pub(super) trait Keep {
+///
+/// # Safety
+/// - What is left out holds the arcs that the way of the cover does not have.
+pub(super) unsafe trait Keep {
     /// The arcs that need not be looked at.
     fn left_out(&self, cover: &Cover) -> u64;
 
@@ -61,7 +64,8 @@ pub(super) trait Keep {
 /// Nothing is kept: what is covered wholly is left out.
 pub(super) struct Nothing;
 
-impl Keep for Nothing {
+// SAFETY: a cover is full from the beginning where its way has no arc.
+unsafe impl Keep for Nothing {
     #[inline(always)]
     fn left_out(&self, cover: &Cover) -> u64 {
         cover.full
@@ -82,7 +86,7 @@ impl Keep for Nothing {
 /// differ. Where it might have two, within the sag of the arc, the plain way takes over.
 ///
 /// # Safety
-/// - The processor has the instructions of `P`, which are sixteen; arcs that a way does not have are left out.
+/// - The processor has the instructions of `P`, which are sixteen.
 #[inline(always)]
 pub(super) unsafe fn polygon<P: Lanes, K: Keep>(
     occluder: &Occluder,

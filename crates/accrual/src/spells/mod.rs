@@ -4,7 +4,9 @@
 //! one stands behind it: whether the shadow would stay if the first one were taken away. What follows from
 //! these stretches, such as minutes, the first sun or the longest, needs no more tracing.
 
+mod runs;
 mod stretch;
+mod summary;
 mod sweep;
 
 use arrayvec::ArrayVec;
@@ -13,6 +15,7 @@ use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
+use crate::exact::{NEAR, TILES};
 use crate::kernel::{FindRoom, Job, find_stretches};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile, is_somewhere};
@@ -20,8 +23,10 @@ use crate::tiles::Tiles;
 use crate::way::Way;
 use crate::ways::Ways;
 
+use runs::Runs;
 pub use stretch::{Stretch, Stretches};
-use sweep::{Arc, Sweep};
+pub use summary::{Counted, Share, Summary};
+use sweep::Sweep;
 
 /// Finds the stretches of shadow of places, exactly in time.
 #[derive(Debug)]
@@ -45,8 +50,15 @@ impl<'a> Spells<'a> {
     }
 
     /// The same at another level of instructions, with the same answers to the bit.
+    ///
+    /// # Panics
+    /// If this machine does not have the level, see [`Level::available`].
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
+        assert!(
+            Level::available().contains(&level),
+            "this machine does not have {level:?}"
+        );
         Self { level, ..self }
     }
 
@@ -64,41 +76,66 @@ impl<'a> Spells<'a> {
     }
 
     fn each(&self, lists: &[&[Point3]]) -> Stretches {
-        let tiles: Vec<Stretches> = lists
-            .par_iter()
-            .map_init(
-                || (FindRoom::new(), Sweep::default()),
-                |(room, sweep), places| self.tile(places, room, sweep),
-            )
+        let parts: Vec<Stretches> = lists
+            .par_chunks(TILES)
+            .map_init(Room::new, |room, lists| {
+                let tiles: ArrayVec<Tile, TILES> =
+                    lists.iter().map(|list| Tile::new(list)).collect();
+                let together = if Tile::length(&tiles) <= NEAR {
+                    TILES
+                } else {
+                    1
+                };
+                let mut all = Stretches::default();
+                let parts = tiles.chunks(together).zip(lists.chunks(together));
+                for (tiles, lists) in parts {
+                    self.some(tiles, lists, room, &mut all);
+                }
+                all
+            })
             .collect();
-        Stretches::concat(&tiles)
+        Stretches::concat(&parts)
     }
 
-    fn tile(&self, places: &[Point3], room: &mut FindRoom, sweep: &mut Sweep) -> Stretches {
-        let tile = Tile::new(places);
-        let mut found: ArrayVec<Vec<Stretch>, PLACES> = places.iter().map(|_| Vec::new()).collect();
+    /// Of tiles that lie near one another, and the places that they were made of.
+    fn some(&self, tiles: &[Tile], lists: &[&[Point3]], room: &mut Room, all: &mut Stretches) {
+        let Room { find, sweep, runs } = room;
         for ways in &self.ways {
             let job = Job {
                 occluders: self.occluders,
                 more: None,
                 ways,
-                tiles: std::slice::from_ref(&tile),
+                tiles,
             };
-            let records = find_stretches(self.level, job, room);
-            records.sort_unstable_by_key(|record| record.arc);
-            for records in records.chunk_by(|a, b| a.arc == b.arc) {
-                let arc = Arc::new(&self.occluders.list, &ways.list()[0], records);
-                for (place, found) in found.iter_mut().enumerate() {
-                    if is_somewhere(&places[place]) {
-                        sweep.add(&arc, place, places[place], found);
-                    }
+            let way = &ways.list()[0];
+            find_stretches(self.level, job, find, &mut |shown| {
+                let runs = &mut runs[shown.tile];
+                runs.add(way, shown, sweep);
+                if shown.arc + 1 == way.len() {
+                    runs.end_all(way.starts[shown.arc] + way.seconds[shown.arc]);
                 }
-            }
+            });
         }
-        let mut all = Stretches::default();
-        for found in found {
-            all.push(found);
+        for (runs, places) in runs.iter_mut().zip(lists) {
+            runs.take(places.iter().map(is_somewhere), all);
         }
-        all
+    }
+}
+
+/// What a search needs besides, kept between searches.
+struct Room {
+    find: FindRoom,
+    sweep: Sweep,
+    /// By tile.
+    runs: ArrayVec<Runs, TILES>,
+}
+
+impl Room {
+    fn new() -> Self {
+        Self {
+            find: FindRoom::new(),
+            sweep: Sweep::default(),
+            runs: (0..TILES).map(|_| Runs::new()).collect(),
+        }
     }
 }

@@ -132,6 +132,27 @@ fn stretches_add_up_to_the_shadow() {
 }
 
 #[test]
+fn walls_that_meet_count_once() {
+    // Streets of houses wall to wall, of which many have two walls in one plane.
+    let city = ombra_city::procedural_city(1, 300);
+    let facets = city.facets();
+    let occluders = Occluders::new(&facets);
+    let corner = facets[0].corners[0];
+    let places: Vec<Point3> = (0..640)
+        .map(|k| Point3::new(corner.x + (k % 32) as f32, corner.y + (k / 32) as f32, 0.0))
+        .collect();
+    let sky = sky(40.7);
+    let sheets = sheets(&sky, &spans(&sky, &four_days()));
+    let found = Spells::new(&occluders, &sheets).stretches(&places);
+    let exact = Exact::new(&occluders, &sheets).seconds(&places);
+    for (stretches, exact) in found.iter().zip(exact) {
+        assert!(stretches.windows(2).all(|pair| pair[0].to <= pair[1].from));
+        let sum: f64 = stretches.iter().map(Stretch::seconds).sum();
+        assert!((sum - exact).abs() < 0.1, "{sum} and {exact}");
+    }
+}
+
+#[test]
 fn what_stands_alone_takes_what_the_others_leave() {
     // What a building takes alone is what is gained without it.
     let (facets, places) = city(8, 40);

@@ -92,7 +92,7 @@ fn angles(normal: Vector3) -> (Option<f64>, f64) {
 }
 
 /// Degrees to a tenth of a millimetre on the ground, metres to a millimetre.
-fn rounded([longitude, latitude, height]: [f64; 3]) -> [f64; 3] {
+pub(crate) fn rounded([longitude, latitude, height]: [f64; 3]) -> [f64; 3] {
     let degrees = |x: f64| (x * 1e9).round() / 1e9;
     [
         degrees(longitude),

@@ -11,11 +11,10 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
-use serde_json::{Value, json};
 
-use super::{PlaceRow, angles, rounded};
-use crate::error::{Fault, FormatError, one_line};
-use crate::whole::write_whole_with;
+use super::{PlaceRow, angles};
+use crate::columns::{Bounds, Levels, column, point, write_columns};
+use crate::error::FormatError;
 
 /// Rows that are written together; they are in memory at once.
 const GROUP: usize = 1 << 16;
@@ -51,27 +50,7 @@ pub fn write_places_parquet<'a>(
     rows: impl IntoIterator<Item = PlaceRow<'a>>,
     metadata: &[(String, String)],
 ) -> Result<(), FormatError> {
-    let path = path.as_ref();
-    let mut fault = None;
-    let written = write_whole_with(path, |file| {
-        encode(file, rows.into_iter(), metadata).map_err(|error| match error {
-            ParquetError::External(source) => match source.downcast::<std::io::Error>() {
-                Ok(source) => *source,
-                Err(source) => std::io::Error::other(source),
-            },
-            error => {
-                fault = Some(error.to_string());
-                std::io::Error::other(error)
-            }
-        })
-    });
-    match fault {
-        Some(message) => {
-            let (format, message) = ("GeoParquet", one_line(&message));
-            Err(FormatError::file(Fault::Image { format, message }).in_file(path))
-        }
-        None => written,
-    }
+    write_columns(path, |file| encode(file, rows.into_iter(), metadata))
 }
 
 fn encode<'a>(
@@ -88,35 +67,21 @@ fn encode<'a>(
     let more = if is_change { CHANGE } else { "" };
     let schema = Arc::new(parse_message_type(&format!("{SCHEMA}{more}}}"))?);
     let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties))?;
-    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    let mut bounds = Bounds::default();
     loop {
         let group: Vec<PlaceRow<'_>> = rows.by_ref().take(GROUP).collect();
         if group.is_empty() {
             break;
         }
-        for position in group.iter().map(|row| rounded(row.position)) {
-            for axis in 0..3 {
-                bounds[0][axis] = bounds[0][axis].min(position[axis]);
-                bounds[1][axis] = bounds[1][axis].max(position[axis]);
-            }
-        }
+        bounds.add(group.iter().map(|row| row.position));
         write_group(writer.next_row_group()?, &group, is_change)?;
     }
     for (name, value) in metadata {
         writer.append_key_value_metadata(KeyValue::new(name.clone(), value.clone()));
     }
-    writer.append_key_value_metadata(KeyValue::new("geo".to_owned(), geo(bounds).to_string()));
+    writer.append_key_value_metadata(bounds.geo());
     writer.close()?;
     Ok(())
-}
-
-/// What GeoParquet asks for. No `crs` says OGC:CRS84.
-fn geo(bounds: [[f64; 3]; 2]) -> Value {
-    let mut geometry = json!({"encoding": "WKB", "geometry_types": ["Point Z"]});
-    if bounds[0][0] <= bounds[1][0] {
-        geometry["bbox"] = json!(bounds.concat());
-    }
-    json!({"version": "1.1.0", "primary_column": "geometry", "columns": {"geometry": geometry}})
 }
 
 /// The columns in the order of the schema.
@@ -127,10 +92,10 @@ fn write_group<W: Write + Send>(
 ) -> Result<(), ParquetError> {
     let all = |of: &dyn Fn(&PlaceRow<'_>) -> ByteArray| rows.iter().map(of).collect::<Vec<_>>();
     let text = |text: &str| ByteArray::from(text.as_bytes().to_vec());
-    column::<ByteArrayType, _>(&mut group, &all(&|row| point(row.position)), None)?;
+    column::<ByteArrayType, _>(&mut group, &all(&|row| point(row.position)), Levels::NONE)?;
     optional::<FloatType, _>(&mut group, rows, |row| row.minutes)?;
     let inside: Vec<bool> = rows.iter().map(|row| row.inside).collect();
-    column::<BoolType, _>(&mut group, &inside, None)?;
+    column::<BoolType, _>(&mut group, &inside, Levels::NONE)?;
     optional::<Int64Type, _>(&mut group, rows, |row| {
         row.building.map(|(number, _)| number.into())
     })?;
@@ -165,27 +130,9 @@ fn optional<D: DataType, W: Write + Send>(
     let values: Vec<Option<D::T>> = rows.iter().map(value).collect();
     let levels: Vec<i16> = values.iter().map(|value| value.is_some().into()).collect();
     let values: Vec<D::T> = values.into_iter().flatten().collect();
-    column::<D, W>(group, &values, Some(&levels))
-}
-
-fn column<D: DataType, W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<'_, W>,
-    values: &[D::T],
-    levels: Option<&[i16]>,
-) -> Result<(), ParquetError> {
-    let missing = || ParquetError::General("fewer columns than the schema names".to_owned());
-    let mut column = group.next_column()?.ok_or_else(missing)?;
-    column.typed::<D>().write_batch(values, levels, None)?;
-    column.close()
-}
-
-/// A point as well-known binary (OGC 06-103r4, ISO 13249-3): 1001 is a point with a z.
-fn point(position: [f64; 3]) -> ByteArray {
-    let mut bytes = Vec::with_capacity(29);
-    bytes.push(1);
-    bytes.extend_from_slice(&1001_u32.to_le_bytes());
-    for x in rounded(position) {
-        bytes.extend_from_slice(&x.to_le_bytes());
-    }
-    bytes.into()
+    let levels = Levels {
+        definition: Some(&levels),
+        repetition: None,
+    };
+    column::<D, W>(group, &values, levels)
 }
