@@ -72,5 +72,6 @@ pub use origin::Origin;
 pub use polygon::Polygon;
 pub use procedural::{demo_city, procedural_city};
 pub use receiver::{
-    FaceKind, FacePlace, Grid, GridError, MAX_CELLS, MAX_PLACES, STAND_OFF, StudyArea, StudyError,
+    FaceChart, FaceKind, FacePlace, Grid, GridError, MAX_CELLS, MAX_PLACES, STAND_OFF, StudyArea,
+    StudyError,
 };

@@ -218,6 +218,16 @@ pub enum Fault {
         /// The folder.
         folder: PathBuf,
     },
+    /// A folder to be written that holds something else.
+    #[error(
+        "holds {name:?}, and is no folder of {what} that ombra has written; name a new folder or an empty one"
+    )]
+    FolderTaken {
+        /// What was to be written: "tiles".
+        what: &'static str,
+        /// The first entry that is not ours.
+        name: String,
+    },
     /// A scene file that does not say what a scene file says.
     #[error("{}", shown(.0))]
     Description(String),

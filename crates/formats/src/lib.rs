@@ -30,6 +30,7 @@
 pub mod city;
 pub mod contour;
 pub mod elevation;
+pub mod frames;
 pub mod minray;
 pub mod places;
 pub mod raster;
@@ -50,10 +51,11 @@ mod mesh;
 mod number;
 mod source;
 mod whole;
+mod whole_folder;
 
 pub use error::{Fault, FormatError, IndexBase, Place};
 pub use finding::Finding;
-pub use glb::{GlbMaterial, GlbMesh, GlbModel};
+pub use glb::{GlbMaterial, GlbMesh, GlbModel, GlbTexture};
 pub use gltf::{GltfFile, GltfInfo, parse_gltf, read_gltf};
 pub use image::{
     Channel, ImageBuffer, ImageFormat, ImageInfo, Metadata, OutputFile, read_image,

@@ -46,6 +46,23 @@ pub struct FacePlace {
     pub normal: Vector3,
     /// Whose face it is, by its place in [`City::buildings`].
     pub building: u32,
+    /// Which of [`City::face_charts`] it is on.
+    pub face: u32,
+    /// Its cell there, counted to the right and upslope.
+    pub cell: [u32; 2],
+}
+
+/// A face as it is covered by places, for pictures of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaceChart {
+    /// Cells to the right, as seen from outside, and upslope.
+    pub count: [u32; 2],
+    /// The face cut into triangles, [`STAND_OFF`] before it, local metres.
+    pub triangles: Vec<[Point3; 3]>,
+    /// The same corners in cells, to the right and upslope from where the lattice begins.
+    pub in_cells: Vec<[[f64; 2]; 3]>,
+    /// The cells that have a place, whether or not it is seen.
+    pub cells: Vec<[u32; 2]>,
 }
 
 impl City {
@@ -69,36 +86,53 @@ impl City {
         if !(0.01..=10_000.0).contains(&cell) {
             return Err(GridError::Cell(cell));
         }
-        let inside = Inside::new(self);
         let mut places = Vec::new();
-        for (owner, building) in self.buildings.iter().enumerate() {
-            for (face, is_closed) in building.parts.iter().flat_map(|part| faces(part, kind)) {
-                let Some(chart) = Chart::of(&face, cell) else {
-                    continue;
-                };
-                let more = chart.count[0] * chart.count[1];
-                if places.len() as f64 + more > MAX_PLACES as f64 {
-                    return Err(GridError::ManyPlaces);
-                }
-                let chart = match kind {
-                    _ if is_closed => Some(chart),
-                    FaceKind::Roof => Some(chart.turned(chart.normal[2] < 0.0)),
-                    FaceKind::Facade => chart.outward(&face, &inside),
-                };
-                let Some(chart) = chart.filter(|chart| kind.is_faced_by(chart.normal)) else {
-                    continue;
-                };
-                let normal = chart.normal.map(|x| x as f32).into();
-                let all = chart.places(&face).into_iter();
-                let kept = all.filter(|at| kept([at.x, at.y].map(f64::from)));
-                places.extend(kept.map(|at| FacePlace {
-                    at,
-                    normal,
-                    building: owner as u32,
-                }));
+        for (index, (owner, face, chart)) in self.charts(kind, cell).enumerate() {
+            let more = chart.count[0] * chart.count[1];
+            if places.len() as f64 + more > MAX_PLACES as f64 {
+                return Err(GridError::ManyPlaces);
             }
+            let normal = chart.normal.map(|x| x as f32).into();
+            let all = chart.places(&face).into_iter();
+            let kept = all.filter(|(_, at)| kept([at.x, at.y].map(f64::from)));
+            places.extend(kept.map(|(cell, at)| FacePlace {
+                at,
+                normal,
+                building: owner,
+                face: index as u32,
+                cell,
+            }));
         }
         Ok(places)
+    }
+
+    /// The faces that [`face_places`](Self::face_places) has places on, in the same order; `cell` is one that it takes.
+    pub fn face_charts(&self, kind: FaceKind, cell: f64) -> impl Iterator<Item = FaceChart> {
+        let charts = self.charts(kind, cell);
+        charts.map(|(_, face, chart)| chart.shown(&face))
+    }
+
+    /// All faces of a kind with a lattice over each, and whose they are.
+    fn charts(&self, kind: FaceKind, cell: f64) -> impl Iterator<Item = (u32, Face, Chart)> {
+        let inside = Inside::new(self);
+        let parts = (0..).zip(&self.buildings).flat_map(|(owner, building)| {
+            let parts = building.parts.iter();
+            parts.map(move |part| (owner, part))
+        });
+        let all = parts.flat_map(move |(owner, part)| {
+            let faces = faces(part, kind).into_iter();
+            faces.map(move |(face, is_closed)| (owner, face, is_closed))
+        });
+        all.filter_map(move |(owner, face, is_closed)| {
+            let chart = Chart::of(&face, cell)?;
+            let chart = match kind {
+                _ if is_closed => Some(chart),
+                FaceKind::Roof => Some(chart.turned(chart.normal[2] < 0.0)),
+                FaceKind::Facade => chart.outward(&face, &inside),
+            };
+            let chart = chart.filter(|chart| kind.is_faced_by(chart.normal))?;
+            Some((owner, face, chart))
+        })
     }
 }
 
@@ -264,7 +298,8 @@ impl Chart {
         (!(before && behind)).then(|| self.turned(before))
     }
 
-    fn places(&self, face: &Face) -> Vec<Point3> {
+    /// By their cells.
+    fn places(&self, face: &Face) -> Vec<([u32; 2], Point3)> {
         let rings: Vec<Vec<[f64; 2]>> = (face.rings.iter())
             .map(|ring| ring.iter().map(|&p| self.seen(p)).collect())
             .collect();
@@ -275,15 +310,59 @@ impl Chart {
         };
         let [columns, rows] = self.count.map(|count| count as u32);
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
-        let middles = cells
-            .map(|cell| [0, 1].map(|k| self.least[k] + (f64::from(cell[k]) + 0.5) * self.step[k]));
-        let mut places: Vec<[f64; 2]> = middles.filter(|&place| holds(place)).collect();
+        let middles = cells.map(|cell| {
+            let at = |k: usize| self.least[k] + (f64::from(cell[k]) + 0.5) * self.step[k];
+            (cell, [at(0), at(1)])
+        });
+        let mut places: Vec<_> = middles.filter(|&(_, place)| holds(place)).collect();
         if places.is_empty() {
-            places.extend(self.middle(face));
+            places.extend(self.middle(face).map(|middle| {
+                let cell = self.in_cells(middle);
+                let last = [columns - 1, rows - 1];
+                (
+                    [0, 1].map(|k| (cell[k].max(0.0) as u32).min(last[k])),
+                    middle,
+                )
+            }));
         }
         (places.into_iter())
-            .map(|place| self.off(place, STAND_OFF))
+            .map(|(cell, place)| (cell, self.off(place, STAND_OFF)))
             .collect()
+    }
+
+    /// From metres along the two axes to cells.
+    fn in_cells(&self, at: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| {
+            // A face without an extent one way has no way to go there.
+            let step = if self.step[k] > 0.0 {
+                self.step[k]
+            } else {
+                1.0
+            };
+            (at[k] - self.least[k]) / step
+        })
+    }
+
+    fn shown(&self, face: &Face) -> FaceChart {
+        let corners: Vec<[f64; 2]> = face.corners().map(|p| self.seen(p)).collect();
+        let triangles = face_triangles(face).into_iter();
+        let triangles: Vec<[[f64; 2]; 3]> = triangles
+            .map(|[a, b, c, _]| [a, b, c].map(|i| corners[i as usize]))
+            .collect();
+        FaceChart {
+            count: self.count.map(|count| count as u32),
+            cells: self
+                .places(face)
+                .into_iter()
+                .map(|(cell, _)| cell)
+                .collect(),
+            in_cells: (triangles.iter())
+                .map(|triangle| triangle.map(|at| self.in_cells(at)))
+                .collect(),
+            triangles: (triangles.iter())
+                .map(|triangle| triangle.map(|at| self.off(at, STAND_OFF)))
+                .collect(),
+        }
     }
 
     /// The middle of the largest of the pieces that a face is cut into: it lies in the face, whatever its shape.

@@ -14,7 +14,7 @@ pub struct GlbModel {
 }
 
 /// A colour with a name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlbMaterial {
     /// For people.
     pub name: String,
@@ -22,6 +22,19 @@ pub struct GlbMaterial {
     pub colour: [f32; 4],
     /// Linear light of its own, 0 to 1; what is outside is clipped.
     pub emission: [f32; 3],
+    /// What the colour is multiplied by, place by place.
+    pub texture: Option<GlbTexture>,
+    /// Whether it shows its colour as it is, in whatever light (`KHR_materials_unlit`).
+    pub is_unlit: bool,
+}
+
+/// A picture on a surface; its pixels are told apart (the nearest one counts), and it does not repeat.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GlbTexture {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Red, green and blue (sRGB), row by row from the top; whole rows.
+    pub pixels: Vec<[u8; 3]>,
 }
 
 /// Triangles of one material.
@@ -33,6 +46,9 @@ pub struct GlbMesh {
     pub positions: Vec<[f32; 3]>,
     /// Triangles as indices of vertices. They are seen from both sides.
     pub triangles: Vec<[u32; 3]>,
+    /// Where vertices lie on the texture, from its upper left corner (0, 0) to its lower right one (1, 1): one each,
+    /// or none at all.
+    pub texcoords: Vec<[f32; 2]>,
     /// Which material.
     pub material: usize,
 }

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use png::ColorType;
 use serde_json::{Value, json};
 
-use super::{GlbMesh, GlbModel};
+use super::{GlbMesh, GlbModel, GlbTexture};
 use crate::error::{Fault, FormatError};
+use crate::image::png_bytes;
 use crate::write_whole;
 
 const MAGIC: &[u8; 4] = b"glTF";
@@ -18,6 +20,11 @@ const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+const NEAREST: u32 = 9728;
+const CLAMP_TO_EDGE: u32 = 33071;
+
+/// Khronos' extension for colours that no light changes.
+const UNLIT: &str = "KHR_materials_unlit";
 
 impl GlbModel {
     /// The model as a file. Meshes without triangles are left out, since glTF has none such.
@@ -31,6 +38,13 @@ impl GlbModel {
         for mesh in self.meshes.iter().filter(|mesh| !mesh.triangles.is_empty()) {
             self.check(mesh)?;
             parts.add(mesh, &mut binary);
+        }
+        for texture in self
+            .materials
+            .iter()
+            .filter_map(|material| material.texture.as_ref())
+        {
+            parts.add_image(texture, &mut binary)?;
         }
         let mut text = self.json(&parts, binary.len()).to_string().into_bytes();
         // Chunks are filled up to four bytes: text by spaces, data by zeros (both are so already).
@@ -85,6 +99,15 @@ impl GlbModel {
         if mesh.positions.iter().flatten().any(|x| !x.is_finite()) {
             return Err(wrong("a vertex is not finite".to_owned()));
         }
+        let coordinates = mesh.texcoords.len();
+        if coordinates != 0 && coordinates != vertices {
+            return Err(wrong(format!(
+                "{coordinates} texture coordinates for {vertices} vertices"
+            )));
+        }
+        if mesh.texcoords.iter().flatten().any(|x| !x.is_finite()) {
+            return Err(wrong("a texture coordinate is not finite".to_owned()));
+        }
         if mesh.material >= self.materials.len() {
             let (material, count) = (mesh.material, self.materials.len());
             return Err(wrong(format!("no material {material}, there are {count}")));
@@ -93,12 +116,13 @@ impl GlbModel {
     }
 
     fn json(&self, parts: &Parts, bytes: usize) -> Value {
+        let mut images = 0..parts.images.len();
         let materials: Vec<_> = self
             .materials
             .iter()
             .map(|material| {
                 let colour = material.colour.map(clipped);
-                json!({
+                let mut value = json!({
                     "name": material.name,
                     "pbrMetallicRoughness": {
                         "baseColorFactor": colour,
@@ -108,7 +132,15 @@ impl GlbModel {
                     "emissiveFactor": material.emission.map(clipped),
                     "alphaMode": if colour[3] < 1.0 { "BLEND" } else { "OPAQUE" },
                     "doubleSided": true,
-                })
+                });
+                if material.texture.is_some() {
+                    let index = images.next();
+                    value["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": index });
+                }
+                if material.is_unlit {
+                    value["extensions"] = json!({ UNLIT: {} });
+                }
+                value
             })
             .collect();
         let mut root = json!({
@@ -121,6 +153,22 @@ impl GlbModel {
                 root[name] = Value::Array(value);
             }
         };
+        if self.materials.iter().any(|material| material.is_unlit) {
+            put("extensionsUsed", vec![json!(UNLIT)]);
+        }
+        if !parts.images.is_empty() {
+            let nearest = json!({
+                "magFilter": NEAREST,
+                "minFilter": NEAREST,
+                "wrapS": CLAMP_TO_EDGE,
+                "wrapT": CLAMP_TO_EDGE,
+            });
+            put("samplers", vec![nearest]);
+            let textures = 0..parts.images.len();
+            let textures = textures.map(|image| json!({ "sampler": 0, "source": image }));
+            put("textures", textures.collect());
+            put("images", parts.images.clone());
+        }
         let count = parts.nodes.len();
         let mut nodes = parts.nodes.clone();
         let mut scene = json!({ "name": "ombra" });
@@ -134,6 +182,8 @@ impl GlbModel {
             }
             nodes.push(above);
             scene["nodes"] = json!([count]);
+        }
+        if bytes > 0 {
             put("buffers", vec![json!({ "byteLength": bytes })]);
         }
         put("scenes", vec![scene]);
@@ -153,6 +203,7 @@ struct Parts {
     meshes: Vec<Value>,
     accessors: Vec<Value>,
     views: Vec<Value>,
+    images: Vec<Value>,
 }
 
 impl Parts {
@@ -183,16 +234,51 @@ impl Parts {
             "type": "SCALAR",
         }));
         let last = self.accessors.len();
+        let mut attributes = json!({ "POSITION": last - 2 });
+        if !mesh.texcoords.is_empty() {
+            let place = binary.len();
+            for x in mesh.texcoords.iter().flatten() {
+                binary.extend_from_slice(&x.to_le_bytes());
+            }
+            self.view(place, binary.len(), ARRAY_BUFFER);
+            self.accessors.push(json!({
+                "bufferView": self.views.len() - 1,
+                "componentType": FLOAT,
+                "count": mesh.texcoords.len(),
+                "type": "VEC2",
+            }));
+            attributes["TEXCOORD_0"] = json!(last);
+        }
         self.nodes
             .push(json!({ "name": mesh.name, "mesh": self.meshes.len() }));
         self.meshes.push(json!({
             "name": mesh.name,
             "primitives": [{
-                "attributes": { "POSITION": last - 2 },
+                "attributes": attributes,
                 "indices": last - 1,
                 "material": mesh.material,
             }],
         }));
+    }
+
+    /// As PNG. What follows begins at a multiple of four bytes all the same.
+    fn add_image(&mut self, texture: &GlbTexture, binary: &mut Vec<u8>) -> Result<(), FormatError> {
+        let height = texture.pixels.len() / (texture.width as usize).max(1);
+        let size = [texture.width, height as u32];
+        let file = png_bytes(size, ColorType::Rgb, texture.pixels.as_flattened())?;
+        let place = binary.len();
+        binary.extend_from_slice(&file);
+        self.views.push(json!({
+            "buffer": 0,
+            "byteOffset": place,
+            "byteLength": file.len(),
+        }));
+        self.images.push(json!({
+            "bufferView": self.views.len() - 1,
+            "mimeType": "image/png",
+        }));
+        binary.resize(binary.len().next_multiple_of(4), 0);
+        Ok(())
     }
 
     fn view(&mut self, from: usize, to: usize, target: u32) {
@@ -251,6 +337,8 @@ fn upright(up: [f32; 3]) -> Option<[f32; 4]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ombra_geometry::triangle::TriangleTest;
+
     use crate::{GlbMaterial, GlbMesh};
 
     fn model() -> GlbModel {
@@ -258,14 +346,14 @@ mod tests {
             materials: vec![GlbMaterial {
                 name: "red \"paint\"".to_owned(),
                 colour: [2.0, 0.0, f32::NAN, 0.5],
-                emission: [0.0; 3],
+                ..GlbMaterial::default()
             }],
             meshes: vec![
                 GlbMesh {
                     name: "triangle".to_owned(),
                     positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, -1.0]],
                     triangles: vec![[0, 1, 2]],
-                    material: 0,
+                    ..GlbMesh::default()
                 },
                 GlbMesh::default(),
             ],
@@ -324,6 +412,45 @@ mod tests {
             let error = model.to_bytes().unwrap_err().to_string();
             assert!(error.contains("mesh \"triangle\""), "{error}");
         }
+    }
+
+    #[test]
+    fn a_texture_is_read_back_with_its_colours_and_stays_unlit() {
+        let mut model = model();
+        model.materials[0] = GlbMaterial {
+            name: "minutes".to_owned(),
+            colour: [1.0; 4],
+            texture: Some(GlbTexture {
+                width: 2,
+                pixels: vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [9, 99, 199]],
+            }),
+            is_unlit: true,
+            ..GlbMaterial::default()
+        };
+        model.meshes[0].texcoords = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let bytes = model.to_bytes().unwrap();
+        let text = number(&bytes, 12);
+        let root: Value = serde_json::from_slice(&bytes[20..20 + text]).unwrap();
+        assert_eq!(root["extensionsUsed"], json!(["KHR_materials_unlit"]));
+        assert_eq!(root["samplers"][0]["magFilter"], NEAREST);
+        let view = &root["bufferViews"][root["images"][0]["bufferView"].as_u64().unwrap() as usize];
+        let [from, length] =
+            ["byteOffset", "byteLength"].map(|name| view[name].as_u64().unwrap() as usize);
+        let png = &bytes[28 + text + from..][..length];
+        let picture = image::load_from_memory(png).unwrap().to_rgb8();
+        assert_eq!(picture.get_pixel(1, 1).0, [9, 99, 199]);
+        let file =
+            crate::parse_gltf(&bytes, TriangleTest::default(), &crate::Limits::default()).unwrap();
+        assert!(file.findings.is_empty(), "{:?}", file.findings);
+
+        model.meshes[0].texcoords.pop();
+        assert!(
+            model
+                .to_bytes()
+                .unwrap_err()
+                .to_string()
+                .contains("2 texture coordinates")
+        );
     }
 
     #[test]

@@ -18,6 +18,7 @@ use crate::error::{Fault, FormatError, shown};
 use crate::input::Input;
 use crate::limits::Limits;
 
+pub(crate) use self::png::png_bytes;
 pub use metadata::Metadata;
 pub(crate) use texture::{mean_of_bytes, texture, texture_of_bytes};
 pub use texture::{read_texture, read_texture_bytes};
@@ -158,7 +159,7 @@ impl ImageBuffer {
     }
 
     /// The pixels as 8-bit sRGB, for screens.
-    fn screen_bytes(&self) -> Vec<u8> {
+    pub(crate) fn screen_bytes(&self) -> Vec<u8> {
         let byte = |x: f32| (x * 255.0).round() as u8;
         let pixels = self.pixels.iter();
         pixels.flat_map(|p| p.to_srgb().map(byte)).collect()
@@ -224,7 +225,7 @@ fn check_size(width: u64, height: u64, limits: &Limits) -> Result<(), FormatErro
     }
 }
 
-fn image_fault(format: &'static str, error: &dyn std::fmt::Display) -> FormatError {
+pub(crate) fn image_fault(format: &'static str, error: &dyn std::fmt::Display) -> FormatError {
     let message = shown(&error.to_string());
     FormatError::file(Fault::Image { format, message })
 }

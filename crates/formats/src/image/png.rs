@@ -32,3 +32,21 @@ fn write_chunks(
     writer.write_image_data(&image.screen_bytes())?;
     writer.finish()
 }
+
+/// Pixels as a PNG file without anything else.
+pub(crate) fn png_bytes(
+    [width, height]: [u32; 2],
+    colour: ColorType,
+    pixels: &[u8],
+) -> Result<Vec<u8>, FormatError> {
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(BitDepth::Eight);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(pixels)?;
+        writer.finish()
+    });
+    written.map_err(|error| image_fault("PNG", &error))?;
+    Ok(file)
+}

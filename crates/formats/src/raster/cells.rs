@@ -19,6 +19,22 @@ pub(super) enum Blank {
 }
 
 impl Cells<'_> {
+    /// The cells in the middle of blocks of `factor` by `factor`.
+    pub(super) fn middles(&self, factor: usize) -> Cells<'static> {
+        let factor = factor.max(1);
+        let middle = |block: usize, size: usize| (block * factor + factor / 2).min(size - 1);
+        let [width, height] = [self.width, self.height].map(|size| size.div_ceil(factor));
+        let rows = (0..height).flat_map(|row| (0..width).map(move |column| [column, row]));
+        let values = rows.map(|[column, row]| {
+            self.values[middle(row, self.height) * self.width + middle(column, self.width)]
+        });
+        Cells {
+            width,
+            height,
+            values: values.collect(),
+        }
+    }
+
     /// The means of blocks of `factor` by `factor` cells, those without a number left out. Blocks at
     /// the east and south edges may be smaller.
     ///
@@ -91,6 +107,18 @@ mod tests {
         assert!(cells.means(2, Blank::IfMostAre).values[0].is_nan());
         assert_eq!(cells.means(2, Blank::IfAllAre).values[0], 5.0);
         assert_eq!(means(Blank::IfMostAre)[..3], [2.0, 7.0, 4.0]);
+    }
+
+    #[test]
+    fn the_middle_of_a_block_that_is_cut_is_its_last_cell() {
+        let cells = Cells {
+            width: 5,
+            height: 2,
+            values: Cow::Borrowed(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
+        };
+        let middles = cells.middles(3);
+        assert_eq!((middles.width, middles.height), (2, 1));
+        assert_eq!(middles.values[..], [6.0, 9.0]);
     }
 
     #[test]

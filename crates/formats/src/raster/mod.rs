@@ -1,5 +1,5 @@
 //! Maps of numbers, such as minutes in shadow: out as GeoTIFF ([`write_geotiff`]) and as a picture
-//! for a report ([`map_picture`]).
+//! for a report ([`map_picture`]), or as tiles for maps on the web ([`TileSet`]).
 //!
 //! ```
 //! use ombra_city::{Crs, Grid, Origin};
@@ -24,11 +24,13 @@
 mod cells;
 mod geotiff;
 mod map;
+mod tiles;
 
 use ombra_city::{Grid, Origin};
 
 pub use geotiff::{Band, write_geotiff, write_geotiff_bands};
-pub use map::{MapStyle, Scale, map_picture};
+pub use map::{MapStyle, Scale, Shades, map_picture};
+pub use tiles::{MAX_TILES, TileSet};
 
 use cells::Cells;
 

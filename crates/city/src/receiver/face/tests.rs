@@ -168,3 +168,46 @@ fn what_cannot_be_sampled_says_so() {
         .unwrap_err();
     assert_eq!(error, GridError::ManyPlaces);
 }
+
+#[test]
+fn a_place_lies_in_the_middle_of_its_cell_of_its_chart() {
+    let city = city(vec![
+        block([0.0, 0.0], [10.0, 7.0], 12.0),
+        block([30.0, 5.0], [0.4, 3.0], 1.0),
+    ]);
+    for kind in [FaceKind::Roof, FaceKind::Facade] {
+        let charts: Vec<FaceChart> = city.face_charts(kind, 2.0).collect();
+        assert_eq!(charts.len(), if kind == FaceKind::Roof { 2 } else { 8 });
+        let places = city.face_places(kind, 2.0, |_| true).unwrap();
+        for place in &places {
+            let chart = &charts[place.face as usize];
+            assert!((0..2).all(|k| place.cell[k] < chart.count[k]));
+            // All faces here are rectangles: two triangles from corner to corner.
+            let corner = |cells: [f64; 2]| {
+                let all = chart
+                    .in_cells
+                    .as_flattened()
+                    .iter()
+                    .zip(chart.triangles.as_flattened());
+                let nearest = |at: &[f64; 2]| (at[0] - cells[0]).hypot(at[1] - cells[1]);
+                let (_, at) = all
+                    .min_by(|a, b| nearest(a.0).total_cmp(&nearest(b.0)))
+                    .unwrap();
+                *at
+            };
+            let [columns, rows] = chart.count.map(f64::from);
+            let (from, right, up) = (
+                corner([0.0; 2]),
+                corner([columns, 0.0]),
+                corner([0.0, rows]),
+            );
+            let [u, v] = [0, 1].map(|k| (place.cell[k] as f32 + 0.5) / chart.count[k] as f32);
+            let at = from + (right - from) * u + (up - from) * v;
+            assert!(
+                (at - place.at).length() < 1e-3,
+                "{at:?}, not {:?}",
+                place.at
+            );
+        }
+    }
+}

@@ -35,6 +35,7 @@ pub(crate) fn model(scene: &Scene, samples: &[SampleTree]) -> GlbModel {
         name: format!("{name} rays"),
         colour: [0.0, 0.0, 0.0, 1.0],
         emission: colour,
+        ..GlbMaterial::default()
     }));
     let solids = Solids {
         scene,
@@ -125,6 +126,7 @@ fn material(material: &Material) -> GlbMaterial {
             opacity,
         ],
         emission: material.emission.to_array(),
+        ..GlbMaterial::default()
     }
 }
 

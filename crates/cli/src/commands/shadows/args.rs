@@ -9,6 +9,7 @@ use ombra::formats::city::CityOptions;
 use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
+use super::products::ProductsArgs;
 use super::report::ReportArgs;
 use super::site::SurroundingsArgs;
 use super::what_if::WhatIfArgs;
@@ -58,6 +59,9 @@ pub(crate) struct ShadowsArgs {
     #[command(flatten)]
     pub(crate) report: ReportArgs,
 
+    #[command(flatten)]
+    pub(crate) products: ProductsArgs,
+
     /// How minutes are found
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
@@ -70,7 +74,7 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_name = "TIME", value_parser = step)]
     pub(crate) step: Option<f64>,
 
-    /// The title of maps, frames and tiles [default: the name of the city's file]
+    /// The title of maps, frames, tiles and reports [default: the name of the city's file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
@@ -116,6 +120,12 @@ impl ShadowsArgs {
     /// With how much error fast minutes are content, in percent of the time that the sun is up.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance.unwrap_or(0.5)
+    }
+
+    /// The files and folders that are written.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let own = [&self.output, &self.png].into_iter().flatten();
+        own.map(PathBuf::as_path).chain(self.products.files())
     }
 
     /// The files that are read.
@@ -284,7 +294,7 @@ impl Method {
     }
 }
 
-fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
+pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let own = path
         .extension()
@@ -300,7 +310,7 @@ fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
 }
 
 /// The endings of files of places.
-const GEOJSON: [&str; 2] = ["geojson", "json"];
+pub(super) const GEOJSON: [&str; 2] = ["geojson", "json"];
 const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
 /// What minutes of shadow are written to; a report has names of its own.

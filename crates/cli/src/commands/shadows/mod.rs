@@ -7,6 +7,7 @@ mod measure;
 mod output;
 mod partial;
 mod places;
+mod products;
 mod reach;
 mod report;
 mod rows;
@@ -49,7 +50,7 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     }
     refuse_unknown_output(args);
     let is_demo = args.city == DEMO;
-    let asks_for_files = args.output.is_some() || args.png.is_some();
+    let asks_for_files = args.files().next().is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
     let is_tour = is_tour && !args.what_if.is_asked();
     if !is_tour && !args.when.names_days() {
@@ -59,8 +60,9 @@ pub(crate) fn run(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
         wrong_usage("--json is for one map: name its days, as with --date 2026-12-21");
     }
     refuse_maps_of_no_grid(args);
+    products::refuse(args);
     refuse_what_is_not_used(args);
-    refuse_to_write_what_is_read(args, [&args.output, &args.png].into_iter().flatten());
+    refuse_to_write_what_is_read(args, args.files());
     if args.resume && !asks_for_files && !is_tour {
         wrong_usage("--resume goes on with an output: name it, with -o or --png");
     }
@@ -93,10 +95,8 @@ impl Session {
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in [&args.output, &args.png].into_iter().flatten() {
-        // What would fail in the end fails at once.
-        can_write_whole(path)?;
-    }
+    // What would fail in the end fails at once.
+    can_write(args)?;
 
     let begun = Instant::now();
     let site = cpu.install(|| Site::read(args))?;
@@ -112,6 +112,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     }
     let facets = city.facets();
     let places = cpu.install(|| Places::new(&args.places, asked, &city, all, &talk))?;
+    products::check(args, &city.origin, &places, &when)?;
     let around = cpu.install(|| Reach::new(&facets, surface, &places.tiles, &when));
     let load_seconds = begun.elapsed().as_secs_f64();
     talk.say(&format!(
@@ -155,6 +156,17 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
         partial.keep(&minutes[..*done])?;
     }
     output::write(args, &city, &places, &when, &measured)?;
+    let are_written = products::write(&products::Job {
+        args,
+        session,
+        before: None,
+        city: &city,
+        places: &places,
+        when: &when,
+        minutes: products::Minutes::Plain(&places.spread(&measured.minutes)),
+        metadata: output::of_run(args, &when, &measured),
+        talk: &talk,
+    })?;
     if let Some((partial, _)) = kept.as_ref().filter(|_| is_whole) {
         partial.remove()?;
     }
@@ -162,18 +174,26 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let mut statistics = Statistics::new(args, &city, &places, around, &when, &measured, threads);
     statistics.load_seconds = load_seconds;
     talk.say(&summary(&statistics));
-    if args.output.is_none() && args.png.is_none() && !args.json {
+    if args.files().next().is_none() && !args.json {
         talk.say("nothing was written: -o keeps the minutes (.tif, .geojson, .parquet), --png shadow.png is a map");
     }
     if args.json {
         let json = serde_json::to_string_pretty(&statistics)?;
         writeln!(io::stdout(), "{json}")?;
     }
-    Ok(ExitCode::from(if is_whole {
+    Ok(ExitCode::from(if is_whole && are_written {
         0
     } else {
         interrupt::EXIT_CODE
     }))
+}
+
+/// Whether all outputs could be written now.
+fn can_write(args: &ShadowsArgs) -> anyhow::Result<()> {
+    for path in [&args.output, &args.png].into_iter().flatten() {
+        can_write_whole(path)?;
+    }
+    args.products.can_write()
 }
 
 /// How much surface there is, for people.

@@ -214,9 +214,7 @@ pub(super) fn write(
 ) -> anyhow::Result<()> {
     let values = places.spread(&measured.minutes);
     if let Some(path) = &args.output {
-        let bound = bound(args, when, measured);
-        let mut metadata = metadata(when, args.method, bound, "minutes in shadow");
-        metadata.extend(share(measured).map(|share| ("measured".to_owned(), share)));
+        let metadata = of_run(args, when, measured);
         match (OutputKind::of(path), &places.kind) {
             (OutputKind::GeoJson, _) => with_rows(places, city, &values, None, |rows| {
                 write_places_geojson(path, rows, &metadata)
@@ -278,6 +276,18 @@ pub(super) fn stem(city: &str) -> String {
         || city.to_owned(),
         |stem| stem.to_string_lossy().into_owned(),
     )
+}
+
+/// What says how the numbers of a run came about.
+pub(super) fn of_run(
+    args: &ShadowsArgs,
+    when: &When,
+    measured: &Measured,
+) -> Vec<(String, String)> {
+    let bound = bound(args, when, measured);
+    let mut metadata = metadata(when, args.method, bound, "minutes in shadow");
+    metadata.extend(share(measured).map(|share| ("measured".to_owned(), share)));
+    metadata
 }
 
 /// What says how the numbers came about: those of a method, with its bound, of what `unit` says.

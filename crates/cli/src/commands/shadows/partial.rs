@@ -63,10 +63,10 @@ impl Partial {
         tiles: &Tiles,
         when: &When,
     ) -> anyhow::Result<Option<(Self, Vec<f32>)>> {
-        let Some(output) = args.output.as_ref().or(args.png.as_ref()) else {
+        let Some(output) = args.files().next() else {
             return Ok(None);
         };
-        let mut name = output.clone().into_os_string();
+        let mut name = output.as_os_str().to_owned();
         name.push(".partial");
         let partial = Self {
             path: name.into(),

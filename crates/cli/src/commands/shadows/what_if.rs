@@ -11,7 +11,6 @@ use std::time::Instant;
 
 use ombra::accrual::{Again, Exact, Occluders, Tiles};
 use ombra::city::{Change, City, Edited, Extent};
-use ombra::formats::can_write_whole;
 use ombra::pipeline::Cpu;
 use ombra::sun::{Place, Sheet};
 
@@ -24,7 +23,7 @@ use super::measure::in_parts;
 use super::places::{Asked, Kind, Places};
 use super::site::Site;
 use super::when::When;
-use super::{Session, wrong_usage};
+use super::{Session, products, wrong_usage};
 use crate::commands::Talk;
 use crate::interrupt;
 
@@ -47,9 +46,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     refuse(args);
     let Session { cpu, stop } = session;
     let talk = Talk { quiet: args.quiet };
-    for path in [&args.output, &args.png].into_iter().flatten() {
-        can_write_whole(path)?;
-    }
+    super::can_write(args)?;
     let mut site = cpu.install(|| Site::read(args))?;
     let edits = cpu.install(|| args.what_if.read(args, site.origin(), &talk))?;
     cpu.install(|| site.edit(&edits))?;
@@ -67,6 +64,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         talk.say(&format!("{}: {finding}", args.city));
     }
     let places = cpu.install(|| Places::new(&args.places, asked, &before, all, &talk))?;
+    products::check(args, &before.origin, &places, &when)?;
     talk.say(&format!(
         "{}: {} buildings before, {} after; {}; {} day{}, {:.1} h of sun ({})",
         args.city,
@@ -91,13 +89,28 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         return Ok(ExitCode::from(interrupt::EXIT_CODE));
     };
     written::write(args, &edited.city, &after, &when, &minutes)?;
+    let are_written = products::write(&products::Job {
+        args,
+        session,
+        before: Some(&before),
+        city: &edited.city,
+        places: &after,
+        when: &when,
+        minutes: products::Minutes::Change([&minutes.before, &minutes.after, &minutes.net]),
+        metadata: written::of_run(args, &when),
+        talk: &talk,
+    })?;
     let statistics = Statistics::new(args, [&before, &edited.city], &when, &minutes, &effort);
     talk.say(&statistics.line());
     if args.json {
         let json = serde_json::to_string_pretty(&statistics)?;
         writeln!(io::stdout(), "{json}")?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(ExitCode::from(if are_written {
+        0
+    } else {
+        interrupt::EXIT_CODE
+    }))
 }
 
 const NO_BUILDINGS: &str =

@@ -4,6 +4,7 @@ use serde_json::Value;
 
 mod asked;
 mod places;
+mod products;
 mod reports;
 mod resumed;
 mod what_if;

@@ -1,7 +1,7 @@
 //! The map itself: cells as pixels, buildings with an outline.
 
 use super::canvas::{Canvas, Colour};
-use super::{INK, LEAST, MOST, Scale, ramp};
+use super::{INK, LEAST, MOST, MapStyle, Scale, Shades};
 use crate::raster::Raster;
 use crate::raster::cells::{Blank, Cells};
 
@@ -40,11 +40,17 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    pub(super) fn new(raster: &Raster<'a>, outside: &[bool]) -> Self {
+    pub(super) fn new(raster: &Raster<'a>, style: &MapStyle) -> Self {
+        let outside = &style.outside;
         let grid = raster.grid();
         let factor = grid.width.max(grid.height).div_ceil(MOST);
         let (cells, outside) = match factor {
-            1 => (raster.cells(), outside.to_vec()),
+            1 => (raster.cells(), outside.clone()),
+            // Between sun and shadow there is no mean.
+            _ if style.scale.is_of_moment() => (
+                raster.cells().middles(factor as usize),
+                reduced(outside, grid.width as usize, factor as usize),
+            ),
             _ => (
                 raster.cells().means(factor as usize, Blank::IfMostAre),
                 reduced(outside, grid.width as usize, factor as usize),
@@ -94,11 +100,7 @@ impl<'a> Ground<'a> {
     /// end of the ramp stands for.
     pub(super) fn draw(&self, canvas: &mut Canvas, at: [u32; 2], darkest: f32, scale: Scale) {
         let [left, top] = at.map(i64::from);
-        // A table: curves and powers for each cell would take longer than all the rest.
-        const SHADES: usize = 1024;
-        let ramp: Vec<Colour> = (0..=SHADES)
-            .map(|i| ramp::of(scale, i as f32 / SHADES as f32))
-            .collect();
+        let shades = Shades::up_to(scale, darkest);
         for (row, values) in self.cells.values.chunks_exact(self.cells.width).enumerate() {
             let y = top + row as i64 * i64::from(self.zoom);
             for (column, &value) in values.iter().enumerate() {
@@ -107,8 +109,7 @@ impl<'a> Ground<'a> {
                 let colour = if let Some(empty) = self.empty(at) {
                     empty.colour()
                 } else {
-                    let fraction = ramp::along(scale, value * self.minutes / darkest);
-                    ramp[(fraction * SHADES as f32).round() as usize]
+                    shades.colour(value * self.minutes)
                 };
                 canvas.rectangle(x, y, self.zoom, self.zoom, colour);
             }

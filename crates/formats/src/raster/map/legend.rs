@@ -1,7 +1,7 @@
 //! What the colours stand for.
 
-use super::canvas::Canvas;
-use super::ground::{Empty, OUTLINE};
+use super::canvas::{Canvas, Colour};
+use super::ground::OUTLINE;
 use super::text::Face;
 use super::{INK, MapStyle, Scale, ramp, round};
 use crate::raster::{Raster, Unit};
@@ -23,11 +23,24 @@ pub(super) struct Legend {
 
 impl Legend {
     pub(super) fn new(raster: &Raster<'_>, style: &MapStyle) -> Self {
+        Self::of(raster.values(), raster.unit().minutes(), style)
+    }
+
+    /// Of values that are so many minutes each.
+    pub(super) fn of(values: &[f32], minutes: f32, style: &MapStyle) -> Self {
         let unit = style.unit;
-        let per_unit = f64::from(raster.unit().minutes()) / f64::from(unit.minutes());
-        let values = raster.values().iter().filter(|v| !v.is_nan());
+        let per_unit = f64::from(minutes) / f64::from(unit.minutes());
+        let values = values.iter().filter(|v| !v.is_nan());
+        if style.scale.is_of_moment() {
+            return Self {
+                unit: Unit::Minutes,
+                scale: style.scale,
+                max: ramp::LAST_STATE.into(),
+                ticks: Vec::new(),
+            };
+        }
         let size = |value: &f32| match style.scale {
-            Scale::Shadow => *value,
+            Scale::Shadow | Scale::Moment | Scale::MomentOfChange => *value,
             Scale::Change => value.abs(),
         };
         let largest = f64::from(values.map(size).fold(0.0, f32::max)) * per_unit;
@@ -35,9 +48,10 @@ impl Legend {
             Some(max) => Self::up_to(unit, f64::from(max), largest),
             None => Self::of_all(unit, largest),
         };
-        match style.scale {
-            Scale::Shadow => legend,
-            Scale::Change => legend.both_ways(),
+        if style.scale == Scale::Change {
+            legend.both_ways()
+        } else {
+            legend
         }
     }
 
@@ -115,12 +129,17 @@ impl Legend {
         x: i64,
         y: i64,
         scale: u32,
-        swatches: &[(Empty, String)],
+        swatches: &[(Colour, String)],
     ) {
+        if self.scale.is_of_moment() {
+            draw_moment(canvas, [x, y], scale, self.scale, swatches);
+            return;
+        }
         let (body, small) = (Face::body(scale), Face::small(scale));
-        let what = match self.scale {
-            Scale::Shadow => "Time in shadow",
-            Scale::Change => "Net new shadow",
+        let what = if self.scale == Scale::Change {
+            "Net new shadow"
+        } else {
+            "Time in shadow"
         };
         let caption = format!("{what} ({})", self.unit.name());
         body.draw(canvas, x, y, &caption, INK);
@@ -143,20 +162,56 @@ impl Legend {
             let label_top = below + i64::from(7 * scale);
             small.draw_centred(canvas, middle.max(least), label_top, text, INK);
         }
-        let mut swatch = [bar[0] + i64::from(width + 44 * scale), bar[1]];
+        let left = bar[0] + i64::from(width + 44 * scale);
         if swatches.len() > 1 {
             // One above the other.
-            swatch[1] -= i64::from(13 * scale);
+            draw_swatches(
+                canvas,
+                [left, bar[1] - i64::from(13 * scale)],
+                scale,
+                swatches,
+            );
+        } else {
+            draw_swatches(canvas, [left, bar[1]], scale, swatches);
         }
-        for (empty, name) in swatches {
-            let size = [24 * scale, height];
-            canvas.rectangle(swatch[0], swatch[1], size[0], size[1], empty.colour());
-            canvas.frame(swatch, size, scale, OUTLINE);
-            let text_left = swatch[0] + i64::from(size[0] + 10 * scale);
-            let text_top = swatch[1] - i64::from(3 * scale);
-            body.draw(canvas, text_left, text_top, name, INK);
-            swatch[1] += i64::from(26 * scale);
-        }
+    }
+}
+
+/// What the colours of a moment are called, and those of places without a value.
+fn draw_moment(
+    canvas: &mut Canvas,
+    [x, y]: [i64; 2],
+    scale: u32,
+    of: Scale,
+    swatches: &[(Colour, String)],
+) {
+    const NAMES: [&str; 4] = ["Sun", "Shadow", "New shadow", "Shadow that is gone"];
+    let states: Vec<_> = (ramp::STATES.into_iter().zip(NAMES))
+        .map(|(colour, name)| (colour, name.to_owned()))
+        .collect();
+    let count = if of == Scale::Moment { 2 } else { 4 };
+    let (body, top) = (Face::body(scale), y + i64::from(BAR_TOP / 2 * scale));
+    let mut left = x + i64::from(scale);
+    for column in states[..count].chunks(2).chain([swatches]) {
+        draw_swatches(canvas, [left, top], scale, column);
+        let widest = column.iter().map(|(_, name)| body.width(name)).max();
+        left += i64::from(widest.unwrap_or(0) + 62 * scale);
+    }
+}
+
+/// One below the other.
+fn draw_swatches(canvas: &mut Canvas, at: [i64; 2], scale: u32, swatches: &[(Colour, String)]) {
+    let mut top = at[1];
+    for (colour, name) in swatches {
+        let size = [24 * scale, BAR_HEIGHT * scale];
+        canvas.rectangle(at[0], top, size[0], size[1], *colour);
+        canvas.frame([at[0], top], size, scale, OUTLINE);
+        let text = [
+            at[0] + i64::from(size[0] + 10 * scale),
+            top - i64::from(3 * scale),
+        ];
+        Face::body(scale).draw(canvas, text[0], text[1], name, INK);
+        top += i64::from(26 * scale);
     }
 }
 

@@ -7,6 +7,7 @@ mod legend;
 mod ramp;
 mod round;
 mod scale_bar;
+mod shades;
 mod text;
 
 #[cfg(test)]
@@ -18,6 +19,7 @@ use canvas::{Canvas, Colour};
 use ground::Ground;
 use legend::Legend;
 use scale_bar::ScaleBar;
+pub use shades::Shades;
 use text::Face;
 
 const PAPER: Colour = [255; 3];
@@ -40,6 +42,17 @@ pub enum Scale {
     Shadow,
     /// From shadow that is lost, orange, over none, white, to shadow that is new, blue.
     Change,
+    /// Of one moment: 0 is sun and 1 shadow.
+    Moment,
+    /// Of one moment before and after a change: 0 is sun and 1 shadow both times, 2 shadow that is new, and 3 shadow
+    /// that is gone.
+    MomentOfChange,
+}
+
+impl Scale {
+    const fn is_of_moment(self) -> bool {
+        matches!(self, Self::Moment | Self::MomentOfChange)
+    }
 }
 
 /// What a picture of a map says beside the map. Characters that its font lacks (it has those of
@@ -76,7 +89,7 @@ pub struct MapStyle {
 /// with [`write_image`](crate::write_image). The same arguments give the same picture.
 #[must_use]
 pub fn map_picture(raster: &Raster<'_>, style: &MapStyle) -> ImageBuffer {
-    let ground = Ground::new(raster, &style.outside);
+    let ground = Ground::new(raster, style);
     let legend = Legend::new(raster, style);
     // Letters as large on the page, whether the picture has 900 pixels or 2400.
     let scale = if ground.width() >= 2 * LEAST { 2 } else { 1 };
@@ -131,6 +144,7 @@ pub fn map_picture(raster: &Raster<'_>, style: &MapStyle) -> ImageBuffer {
     ];
     let swatches: Vec<_> = (swatches.into_iter())
         .filter(|(empty, _)| ground.has(*empty))
+        .map(|(empty, name)| (empty.colour(), name))
         .collect();
     legend.draw(&mut canvas, left, y, scale, &swatches);
     let arrow_left = right - i64::from(arrow::WIDTH * scale);

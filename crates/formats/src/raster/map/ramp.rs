@@ -26,11 +26,23 @@ pub(super) fn colour(fraction: f32) -> Colour {
 /// Shadow that is lost, none, and shadow that is new, in Oklab. Orange and blue are told apart by the colour-blind, too.
 const CHANGE: [[f32; 3]; 3] = [[0.66, 0.10, 0.12], [1.0, 0.0, 0.0], [0.38, 0.0, -0.16]];
 
+/// Sun, shadow, shadow that is new, and shadow that is gone, of one moment.
+pub(super) const STATES: [Colour; 4] = [
+    [250, 244, 219],
+    [98, 98, 120],
+    [38, 84, 214],
+    [236, 140, 60],
+];
+
+/// The number of the last one.
+pub(super) const LAST_STATE: f32 = 3.0;
+
 /// How far along the ramp of a scale a fraction of its largest value lies, from 0 to 1.
 pub(super) fn along(scale: Scale, fraction: f32) -> f32 {
     match scale {
         Scale::Shadow => fraction.clamp(0.0, 1.0),
         Scale::Change => 0.5 + 0.5 * fraction.clamp(-1.0, 1.0),
+        Scale::Moment | Scale::MomentOfChange => fraction.clamp(0.0, 1.0),
     }
 }
 
@@ -38,6 +50,7 @@ pub(super) fn along(scale: Scale, fraction: f32) -> f32 {
 pub(super) fn of(scale: Scale, along: f32) -> Colour {
     match scale {
         Scale::Shadow => colour(along),
+        Scale::Moment | Scale::MomentOfChange => STATES[(along * LAST_STATE).round() as usize],
         Scale::Change => {
             let [lost, none, new] = CHANGE;
             let fraction = 2.0 * along - 1.0;

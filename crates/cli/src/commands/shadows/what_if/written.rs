@@ -21,8 +21,7 @@ pub(super) fn write(
 ) -> anyhow::Result<()> {
     let Minutes { before, after, net } = minutes;
     if let Some(path) = &args.output {
-        let unit = "minutes in shadow before and after, and after less before";
-        let metadata = metadata(when, args.method, bound(when), unit);
+        let metadata = of_run(args, when);
         let change = Some([&before[..], &net[..]]);
         match (OutputKind::of(path), &places.kind) {
             (OutputKind::GeoJson, _) => with_rows(places, city, after, change, |rows| {
@@ -61,6 +60,12 @@ pub(super) fn write(
         write_map(path, &raster, &style)?;
     }
     Ok(())
+}
+
+/// What says how the numbers came about.
+pub(super) fn of_run(args: &ShadowsArgs, when: &When) -> Vec<(String, String)> {
+    let unit = "minutes in shadow before and after, and after less before";
+    metadata(when, args.method, bound(when), unit)
 }
 
 fn bound(when: &When) -> String {
