@@ -24,7 +24,8 @@ pub(crate) struct ShadowsArgs {
     /// built in
     pub(crate) city: String,
 
-    /// Where to write minutes of shadow: a GeoTIFF (.tif), or places as GeoJSON (.geojson) or GeoParquet (.parquet)
+    /// Where to write minutes of shadow: a GeoTIFF (.tif), or places as GeoJSON (.geojson) or GeoParquet (.parquet); of
+    /// a report the name of its files
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 

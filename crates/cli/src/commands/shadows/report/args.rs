@@ -8,7 +8,6 @@ use super::super::args::metres;
 
 /// A report by a rule.
 #[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "Reports by a rule")]
 pub(crate) struct ReportArgs {
     /// The table that a rule asks for, instead of a map: -o OUT writes OUT.csv, OUT.json and OUT.html, or the one of them that OUT names
     #[arg(long, value_enum, value_name = "RULE", conflicts_with_all = ["png", "contours", "tiles", "frames", "glb", "area", "margin", "study", "on", "resume"])]
