@@ -85,10 +85,10 @@ pub fn area(data: &[u8]) {
         Err(error) => return check_error(&error),
     };
     area.findings.iter().for_each(|finding| check_line(finding));
-    assert!(!area.polygons.is_empty());
+    assert!(!area.areas.is_empty());
     let origin = ombra_city::Origin::new(ombra_city::Crs::wgs84(), [4.36, 52.01]);
     let origin = origin.expect("Delft is on the map");
-    match ombra_city::StudyArea::new(&origin, &area.crs, &area.polygons) {
+    match ombra_city::StudyArea::new(&origin, &area.crs, &area.polygons()) {
         Ok(study) => {
             let [low, high] = study.bounds();
             assert!((0..2).all(|k| low[k] < high[k]));

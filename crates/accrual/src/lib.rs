@@ -6,6 +6,7 @@
 
 mod again;
 mod cover;
+mod coverage;
 mod exact;
 mod fast;
 mod ground;
@@ -20,6 +21,7 @@ mod way;
 mod ways;
 
 pub use again::Again;
+pub use coverage::{Coverage, Peak, new_shadow, shadow};
 pub use exact::Exact;
 pub use fast::{Difference, Fast};
 pub use ground::Ground;

@@ -31,6 +31,7 @@
 
 pub mod heights;
 
+mod around;
 mod building;
 mod city;
 mod context;
@@ -54,6 +55,7 @@ mod stand;
 mod surface_model;
 mod triangulate;
 
+pub use around::line_around;
 pub use building::{Building, Face, Faces, Part, Prism, Surface};
 pub use city::City;
 pub use context::Base;

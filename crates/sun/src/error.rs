@@ -97,6 +97,9 @@ pub enum SunError {
     /// A margin that is none.
     #[error("a margin of {0} s is not from 0 to 86400 s")]
     Margin(f64),
+    /// Not where the sun rises.
+    #[error("sunrise at altitude {0} is not from -5 to 5 degrees")]
+    Sunrise(f64),
     /// Not a height of the sun.
     #[error("minimum altitude {0} is not from 0 to below 90 degrees")]
     MinAltitude(f64),

@@ -6,25 +6,29 @@ use jiff::tz::TimeZone;
 use crate::civil::CivilDay;
 use crate::crossing::{Crossing, crossings};
 use crate::position::DAY;
-use crate::span::{difference, intersection, union};
 use crate::{Instant, Sky, Span, SunError, Window};
 
 /// The most windows of one day.
 pub const MAX_WINDOWS: usize = 256;
+
+/// The altitude of the sun's centre, in degrees, at the sunrise and sunset of almanacs: 34' of refraction and 16' from the
+/// centre to the upper edge.
+pub const ALMANAC_SUNRISE: f64 = -50.0 / 60.0;
 
 /// Which hours of each day: those within any of the windows, by the clock or by true solar time (no
 /// window: the whole day), less the margins after sunrise and before sunset, while the sun is at
 /// least as high as the minimum.
 ///
 /// Sunrise and sunset are when the *centre* of the sun, lifted by refraction if the [`Sky`] has any,
-/// crosses altitude 0. Almanacs mean its upper edge through a standard 34' of refraction, at -0.833°,
-/// which is 3 to 7 minutes earlier and later at middle latitudes.
+/// crosses altitude 0, unless [another altitude](Self::with_sunrise) is asked for. Almanacs mean its upper edge through a
+/// standard 34' of refraction, at [`ALMANAC_SUNRISE`], which is 3 to 7 minutes earlier and later at middle latitudes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hours {
     clock: Vec<Window>,
     solar: Vec<Window>,
     after_sunrise: f64,
     before_sunset: f64,
+    sunrise: f64,
     min_altitude: f64,
 }
 
@@ -80,6 +84,21 @@ impl Hours {
         })
     }
 
+    /// With another altitude of the sun's centre, degrees from -5 to 5, as that of sunrise and sunset: the margins are
+    /// counted from there. The sun counts from altitude 0 all the same.
+    ///
+    /// # Errors
+    /// Out of range.
+    pub fn with_sunrise(self, degrees: f64) -> Result<Self, SunError> {
+        if !(-5.0..=5.0).contains(&degrees) {
+            return Err(SunError::Sunrise(degrees));
+        }
+        Ok(Self {
+            sunrise: degrees,
+            ..self
+        })
+    }
+
     /// Only while the sun is at least this many degrees high, 0 to below 90. The default is 0.
     ///
     /// # Errors
@@ -113,8 +132,8 @@ impl Hours {
         if up.is_empty() {
             return up;
         }
-        let asked = intersection(&self.windows(sky, &day), &up);
-        difference(&asked, &self.margins(sky, day.whole))
+        let asked = Span::intersection(&self.windows(sky, &day), &up);
+        Span::difference(&asked, &self.margins(sky, day.whole))
     }
 
     fn windows(&self, sky: &Sky, day: &CivilDay) -> Vec<Span> {
@@ -126,7 +145,7 @@ impl Hours {
             .solar
             .iter()
             .flat_map(|window| solar_spans(sky, day.whole, *window));
-        union(clock.chain(solar).collect())
+        Span::union(clock.chain(solar).collect())
     }
 
     /// What the margins leave out. The sunrise of a day may be before its midnight, and the sunset
@@ -137,15 +156,17 @@ impl Hours {
             return Vec::new();
         }
         let wide = Span::new(day.start - after, day.end + before);
-        let cut = altitude_crossings(sky, wide, 0.0).into_iter().map(|event| {
-            let at = Instant::from_seconds(event.after);
-            if event.rising {
-                Span::new(at, at + after)
-            } else {
-                Span::new(at - before, at)
-            }
-        });
-        union(cut.collect())
+        let cut = altitude_crossings(sky, wide, self.sunrise)
+            .into_iter()
+            .map(|event| {
+                let at = Instant::from_seconds(event.after);
+                if event.rising {
+                    Span::new(at, at + after)
+                } else {
+                    Span::new(at - before, at)
+                }
+            });
+        Span::union(cut.collect())
     }
 }
 
@@ -163,7 +184,7 @@ fn sun_up(sky: &Sky, day: Span, altitude: f64) -> Vec<Span> {
     if let Some(start) = start {
         spans.push(Span::new(start, day.end));
     }
-    union(spans)
+    Span::union(spans)
 }
 
 fn altitude_crossings(sky: &Sky, span: Span, altitude: f64) -> Vec<Crossing> {
@@ -196,5 +217,5 @@ fn solar_spans(sky: &Sky, day: Span, window: Window) -> Vec<Span> {
         };
         Span::new(at(window.from()), at(window.to()))
     });
-    intersection(&union(spans.collect()), &[day])
+    Span::intersection(&Span::union(spans.collect()), &[day])
 }

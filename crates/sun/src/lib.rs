@@ -49,7 +49,7 @@ pub use calendar::Calendar;
 pub use days::{Days, MAX_DAYS, YEARS};
 pub use disc::Disc;
 pub use error::SunError;
-pub use hours::{Hours, MAX_WINDOWS};
+pub use hours::{ALMANAC_SUNRISE, Hours, MAX_WINDOWS};
 pub use instant::Instant;
 pub use names::{Months, Weekdays};
 pub use place::Place;

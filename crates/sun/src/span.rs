@@ -51,41 +51,48 @@ impl Span {
     }
 }
 
-/// Sorted and disjoint: those that overlap or touch become one.
-pub(crate) fn union(mut spans: Vec<Span>) -> Vec<Span> {
-    spans.sort_by_key(|span| span.start);
-    let mut merged: Vec<Span> = Vec::with_capacity(spans.len());
-    for span in spans {
-        match merged.last_mut() {
-            Some(last) if span.start <= last.end => last.end = last.end.max(span.end),
-            _ => merged.push(span),
-        }
-    }
-    merged.retain(|span| span.seconds() >= SLIVER);
-    merged
-}
-
-/// What two sets share. Both are sorted and disjoint, and so is the result.
-pub(crate) fn intersection(a: &[Span], b: &[Span]) -> Vec<Span> {
-    a.iter()
-        .flat_map(|a| b.iter().filter_map(move |b| a.common(b)))
-        .collect()
-}
-
-/// What is in `a` but not in `b`. Both are sorted and disjoint, and so is the result.
-pub(crate) fn difference(a: &[Span], b: &[Span]) -> Vec<Span> {
-    let mut left = Vec::with_capacity(a.len() + b.len());
-    for span in a {
-        let mut start = span.start;
-        for hole in b {
-            if hole.end > start && hole.start < span.end {
-                left.extend(Span::new(start, hole.start).lasting());
-                start = hole.end;
+/// Sets of stretches: sorted and disjoint lists.
+impl Span {
+    /// All of them as a set: those that overlap or touch become one, and none is shorter than a millisecond.
+    #[must_use]
+    pub fn union(mut spans: Vec<Self>) -> Vec<Self> {
+        spans.sort_by_key(|span| span.start);
+        let mut merged: Vec<Self> = Vec::with_capacity(spans.len());
+        for span in spans {
+            match merged.last_mut() {
+                Some(last) if span.start <= last.end => last.end = last.end.max(span.end),
+                _ => merged.push(span),
             }
         }
-        left.extend(Span::new(start, span.end).lasting());
+        merged.retain(|span| span.seconds() >= SLIVER);
+        merged
     }
-    left
+
+    /// What two sets share.
+    #[must_use]
+    pub fn intersection(a: &[Self], b: &[Self]) -> Vec<Self> {
+        a.iter()
+            .flat_map(|a| b.iter().filter_map(move |b| a.common(b)))
+            .collect()
+    }
+
+    /// What is in the set `a` but not in `b`.
+    #[must_use]
+    pub fn difference(a: &[Self], b: &[Self]) -> Vec<Self> {
+        let mut left = Vec::with_capacity(a.len() + b.len());
+        // Both are in order: what ends before a span of `a` begins matters to none after it.
+        let mut first = 0;
+        for span in a {
+            let mut start = span.start;
+            first += b[first..].partition_point(|hole| hole.end <= start);
+            for hole in b[first..].iter().take_while(|hole| hole.start < span.end) {
+                left.extend(Self::new(start, hole.start).lasting());
+                start = hole.end;
+            }
+            left.extend(Self::new(start, span.end).lasting());
+        }
+        left
+    }
 }
 
 #[cfg(test)]
@@ -98,7 +105,7 @@ mod tests {
 
     #[test]
     fn sets_of_spans() {
-        let a = union(vec![
+        let a = Span::union(vec![
             span(5.0, 7.0),
             span(0.0, 2.0),
             span(2.0, 3.0),
@@ -107,12 +114,12 @@ mod tests {
         assert_eq!(a, [span(0.0, 3.0), span(5.0, 7.0)]);
         let b = [span(-1.0, 1.0), span(2.0, 6.0)];
         assert_eq!(
-            intersection(&a, &b),
+            Span::intersection(&a, &b),
             [span(0.0, 1.0), span(2.0, 3.0), span(5.0, 6.0)]
         );
-        assert_eq!(difference(&a, &b), [span(1.0, 2.0), span(6.0, 7.0)]);
-        assert_eq!(difference(&b, &a), [span(-1.0, 0.0), span(3.0, 5.0)]);
-        assert_eq!(difference(&a, &a), []);
-        assert_eq!(difference(&a, &[]), a);
+        assert_eq!(Span::difference(&a, &b), [span(1.0, 2.0), span(6.0, 7.0)]);
+        assert_eq!(Span::difference(&b, &a), [span(-1.0, 0.0), span(3.0, 5.0)]);
+        assert_eq!(Span::difference(&a, &a), []);
+        assert_eq!(Span::difference(&a, &[]), a);
     }
 }

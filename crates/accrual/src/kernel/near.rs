@@ -71,9 +71,8 @@ impl<P: Lanes> Near<P> {
         // SAFETY: the caller's promise; a tile has sixteen places.
         unsafe {
             let mut away = [P::splat(0.0); 3];
-            for axis in 0..3 {
-                let at = P::load(tile.at[axis].as_ptr());
-                away[axis] = P::splat(occluder.corner[0][axis]).minus(at);
+            for ((away, at), corner) in away.iter_mut().zip(&tile.at).zip(occluder.corner[0]) {
+                *away = P::splat(corner).minus(P::load(at.as_ptr()));
             }
             let above = P::splat(1.0).over(dot(away, occluder.normal));
             let along = |sun: [f32; 3]| {

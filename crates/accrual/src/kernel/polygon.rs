@@ -287,7 +287,6 @@ unsafe fn one_arc<P: Lanes, K: Keep>(
 /// # Safety
 /// - As above.
 #[inline(never)]
-#[expect(clippy::too_many_arguments, reason = "as above")]
 unsafe fn graze<P: Lanes, K: Keep>(
     from: [P; 4],
     to: [P; 4],

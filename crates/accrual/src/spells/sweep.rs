@@ -254,7 +254,7 @@ mod tests {
             .copied()
             .reduce(|a, b| if b.is_before(a, at) { b } else { a })?;
         let is_other = |piece: &&Piece| piece.owner != nearest.owner;
-        Some((nearest.owner, covering.iter().any(|piece| is_other(piece))))
+        Some((nearest.owner, covering.iter().any(is_other)))
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ombra_city::{Crs, Finding, Notes};
 
+use super::footprint::{name, name_among};
 use super::geojson::{crs_of, each_feature, polygons};
 use super::json::{self, Kind};
 use crate::error::{Fault, FormatError};
@@ -15,10 +16,30 @@ use crate::limits::Limits;
 pub struct AreaFile {
     /// What the coordinates mean.
     pub crs: Crs,
-    /// Rings of each, the outer one first, in the coordinates of the map. At least one polygon.
-    pub polygons: Vec<Vec<Vec<[f64; 2]>>>,
+    /// At least one.
+    pub areas: Vec<NamedArea>,
     /// What in the file is no polygon, and was left out.
     pub findings: Vec<Finding>,
+}
+
+/// The polygons of one feature.
+#[derive(Clone, Debug)]
+pub struct NamedArea {
+    /// Its attribute `name`, else its id, else another attribute that names things.
+    pub name: Option<String>,
+    /// Where in the file it is, for messages.
+    pub place: String,
+    /// Rings of each, the outer one first, in the coordinates of the map. At least one polygon.
+    pub polygons: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+impl AreaFile {
+    /// All polygons, whatever feature they are of.
+    #[must_use]
+    pub fn polygons(&self) -> Vec<Vec<Vec<[f64; 2]>>> {
+        let all = self.areas.iter().flat_map(|area| &area.polygons);
+        all.cloned().collect()
+    }
 }
 
 /// Reads all `Polygon`s and `MultiPolygon`s of a GeoJSON file: longitude and latitude, unless its `crs` member names
@@ -56,13 +77,24 @@ fn of_bytes(bytes: &[u8]) -> Result<AreaFile, FormatError> {
         let known = "GeoJSON with polygons";
         return Err(FormatError::file(Fault::UnknownContent { known }));
     };
-    let (mut notes, mut outlines) = (Notes::default(), Vec::new());
+    let (mut notes, mut areas) = (Notes::default(), Vec::new());
     let crs = each_feature(text, &kind, &mut notes, |feature, notes| {
+        let mut outlines = Vec::new();
         polygons(feature.geometry, feature.place, &mut outlines, notes);
+        if !outlines.is_empty() {
+            let own = name(feature.properties.get("name"));
+            areas.push(NamedArea {
+                name: own
+                    .or(feature.id)
+                    .or_else(|| name_among(feature.properties)),
+                place: feature.place.to_owned(),
+                polygons: outlines.into_iter().map(|outline| outline.rings).collect(),
+            });
+        }
     })?;
     let crs = crs_of(crs.as_ref(), &mut notes)?.unwrap_or_else(Crs::wgs84);
     let findings = notes.into_findings();
-    if outlines.is_empty() {
+    if areas.is_empty() {
         let first = findings
             .first()
             .map_or(String::new(), |finding| format!(": {finding}"));
@@ -73,7 +105,7 @@ fn of_bytes(bytes: &[u8]) -> Result<AreaFile, FormatError> {
     }
     Ok(AreaFile {
         crs,
-        polygons: outlines.into_iter().map(|outline| outline.rings).collect(),
+        areas,
         findings,
     })
 }
@@ -98,8 +130,10 @@ mod tests {
              "coordinates": [[[[0,0],[9,0],[9,9]]], [[[20,0],[29,0],[29,9]]]]}}]}"#;
         let area = of_bytes(text.as_bytes()).unwrap();
         assert_eq!(area.crs.name(), "EPSG:28992");
-        let rings: Vec<usize> = area.polygons.iter().map(Vec::len).collect();
+        let rings: Vec<usize> = area.polygons().iter().map(Vec::len).collect();
         assert_eq!(rings, [2, 1, 1]);
+        let of_each: Vec<usize> = area.areas.iter().map(|own| own.polygons.len()).collect();
+        assert_eq!(of_each, [1, 2]);
         let findings: Vec<String> = area.findings.iter().map(ToString::to_string).collect();
         assert_eq!(
             findings,
@@ -108,6 +142,32 @@ mod tests {
                 "feature 2: no geometry: left out"
             ]
         );
+    }
+
+    #[test]
+    fn areas_have_names() {
+        let feature = |more: &str| {
+            format!(
+                r#"{{"type": "Feature", {more}, "geometry": {{"type": "Polygon", "coordinates": [[[0,0],[1,0],[1,1]]]}}}}"#
+            )
+        };
+        let features = [
+            r#""id": 4, "properties": {"name": "Park", "objectid": 7}"#,
+            r#""id": "b", "properties": {"name": null}"#,
+            r#""properties": {"OBJECTID": 7}"#,
+            r#""properties": null"#,
+        ];
+        let text = format!(
+            r#"{{"type": "FeatureCollection", "features": [{}]}}"#,
+            features.map(feature).join(",")
+        );
+        let file = of_bytes(text.as_bytes()).unwrap();
+        let names = file.areas.iter().map(|area| area.name.as_deref());
+        assert_eq!(
+            names.collect::<Vec<_>>(),
+            [Some("Park"), Some("b"), Some("7"), None]
+        );
+        assert_eq!(file.areas[3].place, "feature 3");
     }
 
     #[test]

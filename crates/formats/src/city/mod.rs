@@ -49,7 +49,7 @@ use crate::elevation;
 use crate::error::{Fault, FormatError};
 use crate::input::Input;
 use crate::limits::Limits;
-pub use area::{AreaFile, read_area, read_area_bytes};
+pub use area::{AreaFile, NamedArea, read_area, read_area_bytes};
 pub use info::{CityInfo, HeightsInfo};
 pub(crate) use info::{city_info, is_city};
 use json::Kind;

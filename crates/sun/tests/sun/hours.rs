@@ -331,3 +331,25 @@ fn the_ends_of_the_calendar_have_no_spans() {
         }
     }
 }
+
+#[test]
+fn margins_may_be_counted_from_the_sunrise_of_almanacs() {
+    let sky = sky(40.75, -73.98);
+    let day = |hours: Hours| hours.spans(&sky, &zone("America/New_York"), date("2026-06-21"))[0];
+    let margins = || Hours::default().with_margins(5400.0, 5400.0).unwrap();
+    // Sunrise at 05:25, sunset at 20:31.
+    let almanac = day(margins().with_sunrise(ombra_sun::ALMANAC_SUNRISE).unwrap());
+    assert!((almanac.start - instant("2026-06-21T06:55:00-04:00")).abs() < 45.0);
+    assert!((almanac.end - instant("2026-06-21T19:01:00-04:00")).abs() < 45.0);
+    let middle = day(margins());
+    assert!((240.0..360.0).contains(&(middle.start - almanac.start)));
+    assert!((240.0..360.0).contains(&(almanac.end - middle.end)));
+    // Without margins it makes no difference: the sun counts from the horizon up.
+    let all = day(Hours::default().with_sunrise(-0.833).unwrap());
+    assert_eq!(all, day(Hours::default()));
+    assert_eq!(
+        Hours::default().with_sunrise(9.0),
+        Err(SunError::Sunrise(9.0))
+    );
+    assert!(Hours::default().with_sunrise(f64::NAN).is_err());
+}

@@ -10,6 +10,7 @@ use ombra::sun::{Months, Season, SunError, Weekdays, Window, parse_duration};
 
 use super::places::PlacesArgs;
 use super::products::ProductsArgs;
+use super::report::ReportArgs;
 use super::site::SurroundingsArgs;
 use super::spells::SpellsArgs;
 use super::what_if::WhatIfArgs;
@@ -24,8 +25,9 @@ pub(crate) struct ShadowsArgs {
     /// built in
     pub(crate) city: String,
 
-    /// Where to write minutes of shadow: a GeoTIFF (.tif), or places as GeoJSON (.geojson) or GeoParquet (.parquet)
-    #[arg(short, long, value_name = "OUT", value_parser = output)]
+    /// Where to write minutes of shadow: a GeoTIFF (.tif), or places as GeoJSON (.geojson) or GeoParquet (.parquet); of
+    /// a report the name of its files
+    #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 
     /// Where to write a map as a picture (.png)
@@ -34,6 +36,9 @@ pub(crate) struct ShadowsArgs {
 
     #[command(flatten)]
     pub(crate) when: WhenArgs,
+
+    #[command(flatten)]
+    pub(crate) sun: SunArgs,
 
     #[command(flatten)]
     pub(crate) places: PlacesArgs,
@@ -60,6 +65,9 @@ pub(crate) struct ShadowsArgs {
     pub(crate) spells: SpellsArgs,
 
     #[command(flatten)]
+    pub(crate) report: ReportArgs,
+
+    #[command(flatten)]
     pub(crate) products: ProductsArgs,
 
     /// How minutes are found
@@ -74,7 +82,7 @@ pub(crate) struct ShadowsArgs {
     #[arg(long, value_name = "TIME", value_parser = step)]
     pub(crate) step: Option<f64>,
 
-    /// The title of maps, frames and tiles [default: the name of the city's file]
+    /// The title of maps, frames, tiles and reports [default: the name of the city's file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
@@ -144,7 +152,8 @@ impl ShadowsArgs {
         let SurroundingsArgs {
             terrain, context, ..
         } = &self.surroundings;
-        let files = [study, points, terrain].into_iter().flatten();
+        let resources = &self.report.resources;
+        let files = [study, points, terrain, resources].into_iter().flatten();
         let files = files.chain(context).chain(&self.what_if.with);
         [Path::new(&self.city)]
             .into_iter()
@@ -231,14 +240,22 @@ pub(crate) struct WhenArgs {
     #[arg(long, value_name = "TIME", default_value = "0min", value_parser = duration)]
     pub(crate) before_sunset: f64,
 
-    /// Only while the sun stands at least so high, in degrees
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
-    pub(crate) min_altitude: f64,
+    /// At which altitude of the sun's middle, in degrees, it rises: a rule may say so
+    #[arg(skip)]
+    pub(crate) sunrise: f64,
+
+    /// Only while the sun stands at least so high, in degrees [default: 0; with --report bre 10]
+    #[arg(long, value_name = "DEGREES")]
+    pub(crate) min_altitude: Option<f64>,
 
     /// The time zone of the clock: Europe/Berlin [default: that of the place]
     #[arg(long, value_name = "ZONE")]
     pub(crate) time_zone: Option<String>,
+}
 
+/// What the sun is taken for.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(crate) struct SunArgs {
     /// Lift the sun by refraction, as air at sea level does
     #[arg(long)]
     pub(crate) refraction: bool,
@@ -263,7 +280,7 @@ impl WhenArgs {
             || self.solar_time.is_some()
             || self.after_sunrise > 0.0
             || self.before_sunset > 0.0
-            || self.min_altitude > 0.0
+            || self.min_altitude.is_some()
     }
 }
 
@@ -330,7 +347,8 @@ pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
 pub(super) const GEOJSON: [&str; 2] = ["geojson", "json"];
 const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
-fn output(text: &str) -> Result<PathBuf, String> {
+/// What minutes of shadow are written to; a report has names of its own.
+pub(crate) fn output(text: &str) -> Result<PathBuf, String> {
     ends_in(text, &[&["tif", "tiff"][..], &GEOJSON, &PARQUET].concat())
 }
 

@@ -12,7 +12,7 @@ use crate::commands::Talk;
 
 /// An area may lie so far beside the city, in metres: farther off there is no shadow worth the name, and the area is
 /// a mistake, such as latitude before longitude.
-const BESIDE: f64 = 5_000.0;
+pub(super) const BESIDE: f64 = 5_000.0;
 
 /// Where places may lie.
 pub(super) enum Bound {
@@ -50,7 +50,7 @@ impl Bound {
         for finding in &file.findings {
             talk.say(&format!("{}: {finding}", path.display()));
         }
-        let study = StudyArea::new(origin, &file.crs, &file.polygons)
+        let study = StudyArea::new(origin, &file.crs, &file.polygons())
             .with_context(|| path.display().to_string())?;
         let [low, high] = study.bounds();
         if is_apart(Extent { low, high }, all) {
@@ -74,7 +74,7 @@ impl Bound {
     }
 }
 
-fn is_apart(a: Extent, b: Extent) -> bool {
+pub(super) fn is_apart(a: Extent, b: Extent) -> bool {
     (0..2).any(|k| a.high[k] < b.low[k] || b.high[k] < a.low[k])
 }
 

@@ -10,6 +10,7 @@ mod partial;
 mod places;
 mod products;
 mod reach;
+mod report;
 mod rows;
 mod site;
 mod spells;
@@ -53,6 +54,10 @@ pub(crate) fn run(command: &ShadowsCommand) -> anyhow::Result<ExitCode> {
 }
 
 fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
+    if let Some(rule) = args.report.report {
+        return report::run(args, rule);
+    }
+    refuse_unknown_output(args);
     let is_demo = args.city == DEMO;
     let asks_for_files = args.files().next().is_some();
     let is_tour = is_demo && !asks_for_files && !args.when.names_days() && args.places.is_grid();
@@ -66,15 +71,12 @@ fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     refuse_maps_of_no_grid(args);
     products::refuse(args);
     refuse_what_is_not_used(args);
-    refuse_to_write_what_is_read(args);
+    refuse_to_write_what_is_read(args, args.files());
     spells::refuse(args);
     if args.resume && !asks_for_files && !is_tour {
         wrong_usage("--resume goes on with an output: name it, with -o or --png");
     }
-    let session = Session {
-        cpu: Cpu::with_threads(args.threads as usize).context("cannot start the threads")?,
-        stop: interrupt::watch(args.quiet)?,
-    };
+    let session = Session::new(args)?;
     if args.what_if.is_asked() {
         what_if::run(args, &session)
     } else if is_tour {
@@ -90,6 +92,15 @@ struct Session {
     stop: Arc<AtomicBool>,
 }
 
+impl Session {
+    fn new(args: &ShadowsArgs) -> anyhow::Result<Self> {
+        Ok(Self {
+            cpu: Cpu::with_threads(args.threads as usize).context("cannot start the threads")?,
+            stop: interrupt::watch(args.quiet)?,
+        })
+    }
+}
+
 /// One map.
 fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let Session { cpu, stop } = session;
@@ -100,7 +111,7 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     let begun = Instant::now();
     let site = cpu.install(|| Site::read(args))?;
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
-    let when = cpu.install(|| When::new(&args.when, place, args.samples_step()))?;
+    let when = cpu.install(|| When::new(&args.when, args.sun, place, args.samples_step()))?;
     let all = cpu.install(|| site.extent());
     let surface = site.surface();
     let asked = Asked::read(&args.places, site.origin(), all, &talk)?;
@@ -251,13 +262,25 @@ fn refuse_what_is_not_used(args: &ShadowsArgs) {
     }
 }
 
+/// By its ending an output is a map or a list.
+fn refuse_unknown_output(args: &ShadowsArgs) {
+    let wrong = |path: &PathBuf| args::output(&path.to_string_lossy()).err();
+    if let Some(error) = args.output.as_ref().and_then(wrong) {
+        wrong_usage(&format!("-o: {error}"));
+    }
+}
+
 /// No output may be one of the files that are read, by whatever name.
-fn refuse_to_write_what_is_read(args: &ShadowsArgs) {
+fn refuse_to_write_what_is_read(
+    args: &ShadowsArgs,
+    outputs: impl IntoIterator<Item = impl AsRef<Path>>,
+) {
     let same = |a: &Path, b: &Path| {
         let [a, b] = [a, b].map(std::fs::canonicalize);
         a.is_ok_and(|a| b.is_ok_and(|b| a == b))
     };
-    for output in args.files() {
+    for output in outputs {
+        let output = output.as_ref();
         if args.inputs().any(|input| same(input, output)) {
             wrong_usage(&format!(
                 "{}: is a file that is read; write to another one",

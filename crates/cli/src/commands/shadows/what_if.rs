@@ -50,7 +50,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     let edits = cpu.install(|| args.what_if.read(args, site.origin(), &talk))?;
     cpu.install(|| site.edit(&edits))?;
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
-    let when = cpu.install(|| When::new(&args.when, place, None))?;
+    let when = cpu.install(|| When::new(&args.when, args.sun, place, None))?;
     let all = cpu.install(|| site.extent());
     let ask = |talk: &Talk, site: &Site<'_>| Asked::read(&args.places, site.origin(), all, talk);
     let (asked, asked_after) = (ask(&talk, &site)?, ask(&Talk { quiet: true }, &site)?);

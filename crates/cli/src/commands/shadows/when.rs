@@ -10,7 +10,7 @@ use ombra::sun::{
 };
 use rayon::prelude::*;
 
-use super::args::{Said, WhenArgs};
+use super::args::{Said, SunArgs, WhenArgs};
 use super::{no_days, wrong_usage};
 
 /// More samples would fill the memory.
@@ -26,6 +26,7 @@ pub(super) struct When {
     pub(super) suns: Vec<Sky>,
     pub(super) is_refracted: bool,
     pub(super) zone: String,
+    pub(super) time_zone: TimeZone,
     /// For people: which days and hours.
     pub(super) text: String,
     /// All days, and the first and the last of them.
@@ -35,21 +36,14 @@ pub(super) struct When {
 
 impl When {
     /// `step` is that of samples, in seconds, where there are any.
-    pub(super) fn new(args: &WhenArgs, place: Place, step: Option<f64>) -> anyhow::Result<Self> {
-        let zone = match &args.time_zone {
-            Some(name) => TimeZone::get(name).unwrap_or_else(|_| {
-                wrong_usage(&format!(
-                    "--time-zone {name}: no such time zone; one is Europe/Berlin"
-                ))
-            }),
-            None => place.time_zone()?,
-        };
-        let this_year = jiff::ZonedDateTime::now()
-            .with_time_zone(zone.clone())
-            .year();
-        let year = args.year.unwrap_or(this_year);
-        let calendar = Calendar::with_zone(&place, year, zone.clone())
-            .unwrap_or_else(|error| wrong_usage(&format!("--year {year}: {error}")));
+    pub(super) fn new(
+        args: &WhenArgs,
+        sun: SunArgs,
+        place: Place,
+        step: Option<f64>,
+    ) -> anyhow::Result<Self> {
+        let calendar = calendar(args, &place)?;
+        let zone = calendar.zone.clone();
         let (days, named) = days(args, &calendar)?;
         let weekdays = args
             .weekdays
@@ -61,7 +55,7 @@ impl When {
             .map_or_else(Months::default, |said| said.value);
         let days = days.only(weekdays, months);
         let days = days.unwrap_or_else(|error| wrong_usage(&error.to_string()));
-        let refraction = if args.refraction {
+        let refraction = if sun.refraction {
             Refraction::SEA
         } else {
             Refraction::None
@@ -72,7 +66,7 @@ impl When {
             .map(|&date| hours.spans(&sky, &zone, date))
             .collect();
         let spans = by_day.concat();
-        let suns = if args.disc {
+        let suns = if sun.disc {
             Disc::default().skies(&sky)
         } else {
             vec![sky]
@@ -104,8 +98,9 @@ impl When {
                 .collect(),
             spans,
             suns,
-            is_refracted: args.refraction,
+            is_refracted: sun.refraction,
             zone: zone.iana_name().unwrap_or("its own time zone").to_owned(),
+            time_zone: zone,
             text: text(args, &with_ends(&named, days.dates())),
             dates: days.dates().to_vec(),
             ends_on: [days.dates()[0], days.dates()[days.dates().len() - 1]],
@@ -137,13 +132,18 @@ impl When {
         lowest.reduce(|| f64::INFINITY, f64::min) - below
     }
 
+    /// The days, and what counts of each.
+    pub(super) fn by_day(&self) -> impl Iterator<Item = (Date, &[Span])> {
+        let begins = [0].into_iter().chain(self.ends.iter().copied());
+        let days = begins
+            .zip(&self.ends)
+            .map(|(begin, &end)| &self.spans[begin..end]);
+        self.dates.iter().copied().zip(days)
+    }
+
     /// The way of the sun, day by day: of all points that stand for it.
     pub(super) fn sheets(&self) -> Vec<Vec<Sheet>> {
-        let begins = [0].into_iter().chain(self.ends.iter().copied());
-        let days: Vec<&[Span]> = begins
-            .zip(&self.ends)
-            .map(|(begin, &end)| &self.spans[begin..end])
-            .collect();
+        let days: Vec<&[Span]> = self.by_day().map(|day| day.1).collect();
         let sheets = |spans: &&[Span]| {
             let of_span =
                 |&span: &Span| (self.suns.iter()).flat_map(move |sun| Sheet::cover(sun, span));
@@ -170,6 +170,24 @@ impl When {
             "a point".to_owned()
         }
     }
+}
+
+/// By whose clock days begin, and which year is that of days without one.
+pub(super) fn calendar(args: &WhenArgs, place: &Place) -> anyhow::Result<Calendar> {
+    let zone = match &args.time_zone {
+        Some(name) => TimeZone::get(name).unwrap_or_else(|_| {
+            wrong_usage(&format!(
+                "--time-zone {name}: no such time zone; one is Europe/Berlin"
+            ))
+        }),
+        None => place.time_zone()?,
+    };
+    let this_year = jiff::ZonedDateTime::now()
+        .with_time_zone(zone.clone())
+        .year();
+    let year = args.year.unwrap_or(this_year);
+    let calendar = Calendar::with_zone(place, year, zone);
+    Ok(calendar.unwrap_or_else(|error| wrong_usage(&format!("--year {year}: {error}"))))
 }
 
 fn days(args: &WhenArgs, calendar: &Calendar) -> anyhow::Result<(Days, String)> {
@@ -225,7 +243,8 @@ fn hours(args: &WhenArgs) -> Result<Hours, SunError> {
     Hours::default()
         .with_windows(&windows(&args.hours), &windows(&args.solar_time))?
         .with_margins(args.after_sunrise, args.before_sunset)?
-        .with_min_altitude(args.min_altitude)
+        .with_sunrise(args.sunrise)?
+        .with_min_altitude(args.min_altitude.unwrap_or(0.0))
 }
 
 fn text(args: &WhenArgs, named: &str) -> String {
@@ -245,8 +264,7 @@ fn text(args: &WhenArgs, named: &str) -> String {
     if args.before_sunset > 0.0 {
         parts.push(format!("to {} before sunset", minutes(args.before_sunset)));
     }
-    if args.min_altitude > 0.0 {
-        parts.push(format!("sun at least {}° high", args.min_altitude));
-    }
+    let lowest = args.min_altitude.filter(|&lowest| lowest > 0.0);
+    parts.extend(lowest.map(|lowest| format!("sun at least {lowest}° high")));
     parts.join(", ")
 }

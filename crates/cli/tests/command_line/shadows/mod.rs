@@ -5,6 +5,7 @@ use serde_json::Value;
 mod asked;
 mod places;
 mod products;
+mod reports;
 mod resumed;
 mod spells;
 mod what_if;

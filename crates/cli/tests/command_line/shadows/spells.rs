@@ -295,7 +295,6 @@ fn what_cannot_be_asked_is_said() {
     assert!(asked(2, &["a.parquet", "--weight", "12:00-13:00"]).contains("=2"));
     assert!(asked(2, &["a.parquet", "--weight", "someday=2"]).contains("someday"));
     assert!(asked(2, &["a.parquet", "-o", "b.png"]).contains(".csv"));
-    assert!(asked(2, &["a.parquet", "--disc"]).contains("--disc"));
     std::fs::write(folder.join("b.parquet"), b"PAR1 and no more").unwrap();
     assert!(asked(1, &["b.parquet"]).contains("b.parquet"));
 }

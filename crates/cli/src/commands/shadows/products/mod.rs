@@ -120,7 +120,7 @@ pub(super) fn refuse(args: &ShadowsArgs) {
             "--glb shows one city; leave out --with, --without and --height, or write two runs",
         );
     }
-    if products.frames.is_some() && args.when.disc {
+    if products.frames.is_some() && args.sun.disc {
         wrong_usage("--frames: at a moment a place lies in shadow or not; leave out --disc");
     }
     if args.title.is_some()

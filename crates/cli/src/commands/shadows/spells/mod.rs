@@ -78,7 +78,7 @@ pub(super) fn refuse(args: &ShadowsArgs) {
             args.method.name()
         ));
     }
-    if args.when.disc {
+    if args.sun.disc {
         wrong_usage(&format!("{option}: the sun is a point; leave out --disc"));
     }
     if args.what_if.is_asked() {

@@ -15,7 +15,7 @@ use ombra::sun::{Calendar, Place, Span};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::super::args::{WhenArgs, csv, ends_in};
+use super::super::args::{SunArgs, WhenArgs, csv, ends_in};
 use super::super::when::When;
 use super::answer::{self, Answer};
 use super::buildings::{self, BuildingRow, Buildings};
@@ -93,11 +93,6 @@ struct Statistics<'a> {
 
 pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
     let talk = Talk { quiet: args.quiet };
-    if args.when.disc || args.when.refraction {
-        super::super::wrong_usage(
-            "--disc and --refraction: the file says how the sun was reckoned",
-        );
-    }
     for path in [&args.output, &args.by_building].into_iter().flatten() {
         let same = |path: &PathBuf| std::fs::canonicalize(path).ok();
         if same(path).is_some_and(|own| Some(own) == same(&args.spells)) {
@@ -282,9 +277,12 @@ fn asked(
         });
     }
     asked.year = asked.year.or(Some(first.year()));
-    asked.refraction = about.refraction;
+    let sun = SunArgs {
+        refraction: about.refraction,
+        disc: false,
+    };
     let place = Place::new(about.latitude, about.longitude, 0.0)?;
-    let when = When::new(&asked, place, None)?;
+    let when = When::new(&asked, sun, place, None)?;
     let spans = common(&when.spans, &held);
     if spans.is_empty() {
         bail!(

@@ -32,7 +32,7 @@ impl WhatIfArgs {
     }
 
     /// With the buildings of files, read as those of the city are.
-    pub(super) fn read(
+    pub(in crate::commands::shadows) fn read(
         &self,
         args: &ShadowsArgs,
         origin: &Origin,
