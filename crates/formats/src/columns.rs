@@ -10,6 +10,7 @@ use parquet::file::writer::SerializedRowGroupWriter;
 use serde_json::json;
 
 use crate::error::{Fault, FormatError, one_line};
+use crate::image::write_error;
 use crate::places::rounded;
 use crate::whole::write_whole_with;
 
@@ -35,6 +36,17 @@ pub(crate) fn write_columns(
     match fault {
         Some(message) => Err(wrong(&message).in_file(path)),
         None => written,
+    }
+}
+
+/// What went wrong while a file was written.
+pub(crate) fn write_fault(error: ParquetError) -> FormatError {
+    match error {
+        ParquetError::External(source) => match source.downcast::<std::io::Error>() {
+            Ok(source) => write_error(*source),
+            Err(source) => wrong(&source.to_string()),
+        },
+        error => wrong(&error.to_string()),
     }
 }
 

@@ -3,11 +3,10 @@
 //! It keeps each stretch of time in which a polygon covers the sun. An arc is left out only when it is known, for all places
 //! of a tile and all of it, that two buildings cover it and that what is nearest of all is among what was found. Two buildings:
 //! one polygon each covers all of it, or else, owners are of two kinds, by a bit of their number, each kind has a cover of its own, and
-//! both are full. What is no building counts as two. The nearest: whatever else there is begins farther away than one that covers all of it, or
+//! both are full. The nearest: whatever else there is begins farther away than one that covers all of it, or
 //! than the farthest corner of what filled the covers.
 
 use arrayvec::ArrayVec;
-use ombra_city::Facet;
 
 use super::bits::bits;
 use super::lanes::{Lanes, Mask as _};
@@ -43,6 +42,8 @@ pub(super) struct Seen {
     covers: [Cover; 2],
     /// The arcs that two cover, or that are not there.
     full: u64,
+    /// Those that are not there.
+    none: u64,
     /// By arc who covers all of it with one polygon, and the arcs of which there are two such.
     whole: [u32; MOST],
     twice: u64,
@@ -61,6 +62,7 @@ impl Seen {
         Self {
             covers: [Cover::new(), Cover::new()],
             full: 0,
+            none: 0,
             whole: [NOBODY; MOST],
             twice: 0,
             reach: [0.0; MOST],
@@ -76,6 +78,7 @@ impl Seen {
             cover.clear(arcs);
         }
         self.full = self.covers[0].full;
+        self.none = self.full;
         self.whole = [NOBODY; MOST];
         self.twice = 0;
         self.reach = [0.0; MOST];
@@ -91,10 +94,11 @@ impl Seen {
             return self.full;
         }
         let among = u64::MAX << first & u64::MAX >> (63 - last);
-        let mut left_out = self.full & among;
-        for arc in bits(left_out) {
+        // Others are left out as well: nobody asks for them.
+        let mut left_out = self.full & (!among | self.none);
+        for arc in bits(self.full & among & !self.none) {
             let is_behind = self.behind[arc].min(self.reach[arc]) <= distance;
-            left_out &= !(u64::from(!is_behind) << arc);
+            left_out |= u64::from(is_behind) << arc;
         }
         left_out
     }
@@ -105,7 +109,7 @@ impl Seen {
         self.behind[arc] = self.behind[arc].min(behind);
         let other = self.whole[arc];
         self.whole[arc] = owner;
-        if owner >= Facet::CONTEXT || other != NOBODY && other != owner {
+        if other != NOBODY && other != owner {
             self.twice |= 1 << arc;
         }
     }
@@ -188,23 +192,6 @@ unsafe impl Keep for Found<'_> {
     }
 }
 
-/// Nothing is kept of what was kept before; these arcs are left out.
-struct Besides(u64);
-
-// SAFETY: as above.
-unsafe impl Keep for Besides {
-    #[inline(always)]
-    fn left_out(&self, _: &Cover) -> u64 {
-        self.0
-    }
-
-    #[inline(always)]
-    unsafe fn stretches<P: Lanes>(&mut self, _: usize, _: P::Mask, _: P, _: P) {}
-
-    #[inline(always)]
-    fn stretch(&mut self, _: usize, _: usize, _: f32, _: f32) {}
-}
-
 /// Finds what comes before the one way of `ways`, seen from tiles: `seen` has as many.
 ///
 /// # Safety
@@ -267,12 +254,6 @@ pub(super) unsafe fn find<N: Lanes, P: Lanes>(
                     polygon::<P, _>(occluder, list, arcs, steep, tile, own, &mut found);
                     let covers = found.covers & !seen.full;
                     let wholly = found.wholly & !seen.full;
-                    if occluder.owner >= Facet::CONTEXT {
-                        // Of what is no building there is no other: it counts as two.
-                        let own = &mut seen.covers[1 - kind..][..1];
-                        let besides = &mut Besides(left_out);
-                        polygon::<P, _>(occluder, list, arcs, steep, tile, own, besides);
-                    }
                     for arc in bits(wholly) {
                         let behind = farthest::<P>(occluder, tile, &list[0], arc);
                         seen.cover(arc, occluder.owner, behind);

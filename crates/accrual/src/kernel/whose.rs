@@ -154,9 +154,18 @@ pub(super) unsafe fn whose<P: Lanes>(
                 last_from = from.or_where_not(nearer, last_from);
             }
         }
-        // One polygon is the nearest all along, or two that meet; what others have for a part of the time is behind both.
+        // One polygon is the nearest all along, or two that meet. Behind one is who is behind at its ends and at those of the arc, which
+        // others that cover all of it are; behind two who is so at the ends of all that it covers, since the less near of two is nearer
+        // still in between.
         let meet = many.and_not(first_to.plus(join).below(last_from));
         let mut plain = meet.bits();
+        let begins = first
+            .begin
+            .below(last.begin)
+            .or(last.begin.below(first.begin));
+        let two = begins
+            .or(first.end.below(last.end))
+            .or(last.end.below(first.end));
         let mut at = nears.iter();
         for (number, own) in owners().enumerate() {
             let number = P::splat(number as f32);
@@ -166,7 +175,7 @@ pub(super) unsafe fn whose<P: Lanes>(
                 let (from, to) = stretch(entry);
                 let (from, to) = (P::load(from), P::load(to));
                 let partly = join.below(from).or(to.below(nearly));
-                let covers = from.below(to).and(partly).and(asked);
+                let covers = from.below(to).and(partly.or(two)).and(asked);
                 if covers.bits() & plain == 0 {
                     continue;
                 }

@@ -38,6 +38,30 @@ impl Stretches {
         self.ends.push(self.list.len());
     }
 
+    /// Adds the places of others.
+    pub fn append(&mut self, others: &Self) {
+        let before = self.list.len();
+        self.list.extend(&others.list);
+        self.ends.extend(others.ends.iter().map(|end| before + end));
+    }
+
+    /// Takes the first so many places away from the others, or all if there are fewer.
+    #[must_use]
+    pub fn take_first(&mut self, places: usize) -> Self {
+        let places = places.min(self.len());
+        let end = places.checked_sub(1).map_or(0, |last| self.ends[last]);
+        let rest = Self {
+            list: self.list.split_off(end),
+            ends: self
+                .ends
+                .split_off(places)
+                .into_iter()
+                .map(|own| own - end)
+                .collect(),
+        };
+        std::mem::replace(self, rest)
+    }
+
     /// How many places there are.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -71,10 +95,39 @@ impl Stretches {
             ends: Vec::with_capacity(parts.iter().map(|part| part.ends.len()).sum()),
         };
         for part in parts {
-            let before = all.list.len();
-            all.list.extend(&part.list);
-            all.ends.extend(part.ends.iter().map(|end| before + end));
+            all.append(part);
         }
         all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_places_part_from_the_others() {
+        let stretch = |owner| Stretch {
+            from: Instant::from_seconds(0.0),
+            to: Instant::from_seconds(1.0),
+            owner,
+            is_alone: true,
+        };
+        let of = |counts: &[u32]| {
+            let mut all = Stretches::default();
+            for &count in counts {
+                all.push((0..count).map(stretch));
+            }
+            all
+        };
+        for first in 0..6 {
+            let mut all = of(&[2, 0, 3, 1]);
+            let own = all.take_first(first);
+            let parts = [2, 0, 3, 1].split_at(first.min(4));
+            assert_eq!([own.clone(), all.clone()], [of(parts.0), of(parts.1)]);
+            let mut together = own;
+            together.append(&all);
+            assert_eq!(together, of(&[2, 0, 3, 1]));
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! What is known of all places of a file.
 
-use ombra_city::Grid;
+use ombra_city::{Grid, MAX_CELLS};
 use ombra_sun::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
@@ -87,6 +87,10 @@ impl SpellsAbout {
         let is_on_globe = self.latitude.abs() <= 90.0 && self.longitude.abs() <= 180.0;
         let is_in_order = self.windows.iter().all(|[from, to]| from < to)
             && self.windows.windows(2).all(|pair| pair[0][1] <= pair[1][0]);
+        let is_small = |grid: Grid| {
+            let (width, height) = (u64::from(grid.width), u64::from(grid.height));
+            width > 0 && height > 0 && width * height <= MAX_CELLS
+        };
         // Within some thousands of years, so that sums of milliseconds are exact.
         let is_near = |time: &i64| time.unsigned_abs() < 1 << 48;
         if self.version != 1 {
@@ -98,6 +102,8 @@ impl SpellsAbout {
             ))
         } else if !(is_in_order && self.windows.iter().flatten().all(is_near)) {
             Some("has windows that are not in order".to_owned())
+        } else if !self.grid().is_none_or(is_small) {
+            Some("has a grid of no cells, or of too many".to_owned())
         } else if self
             .cell
             .is_some_and(|cell| !(0.01..=10_000.0).contains(&cell))

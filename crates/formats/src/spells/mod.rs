@@ -15,6 +15,7 @@
 
 mod about;
 mod chunks;
+mod quietly;
 mod read;
 mod write;
 

@@ -13,6 +13,7 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::about::instant;
 use super::chunks::Chunks;
+use super::quietly::quietly;
 use super::{COLUMNS, KEY, SpellsAbout, SpellsGroup};
 use crate::columns::wrong;
 use crate::error::{Fault, FormatError};
@@ -44,7 +45,8 @@ impl SpellsFile {
             let about = about(&file)?;
             Ok((file, about))
         };
-        let (file, about) = open().map_err(|error: FormatError| error.in_file(path))?;
+        let opened = quietly(open).map_err(|error: FormatError| error.in_file(path));
+        let (file, about) = opened?;
         Ok(Self {
             path: path.to_owned(),
             file,
@@ -86,7 +88,7 @@ impl SpellsFile {
             let columns = self.file.get_row_group(group).map_err(broken)?;
             read_group(&*columns, &self.about)
         };
-        read().map_err(|error: FormatError| error.in_file(&self.path))
+        quietly(read).map_err(|error: FormatError| error.in_file(&self.path))
     }
 }
 
@@ -181,6 +183,7 @@ fn read_group(
     if !is_even || [other, third, fourth].iter().any(|own| *own != lengths) {
         return Err(wrong("its columns are not of one length"));
     }
+    let cells = about.grid().map(|grid| grid.count());
     let mut group = SpellsGroup {
         positions: points.iter().map(position).collect::<Result<_, _>>()?,
         ..SpellsGroup::default()
@@ -188,7 +191,9 @@ fn read_group(
     let times = begins.iter().zip(&ends);
     let mut all = times.zip(buildings.iter().zip(&alone));
     for (&place, &length) in places.iter().zip(&lengths) {
-        let number = u32::try_from(place).map_err(|_| wrong(&format!("place {place}")))?;
+        let number = u32::try_from(place).ok();
+        let number = number.filter(|&own| cells.is_none_or(|cells| (own as usize) < cells));
+        let number = number.ok_or_else(|| wrong(&format!("place {place} is not in its grid")))?;
         let mut stretches: Vec<Stretch> = Vec::with_capacity(length);
         for ((&begin, &end), (&building, &is_alone)) in all.by_ref().take(length) {
             let before = stretches.last().map(|last| last.to);
@@ -239,5 +244,10 @@ fn position(bytes: &ByteArray) -> Result<[f64; 3], FormatError> {
         own.copy_from_slice(&rest[8 * k..][..8]);
         f64::from_le_bytes(own)
     };
-    Ok([number(0), number(1), number(2)])
+    let position @ [longitude, latitude, height] = [number(0), number(1), number(2)];
+    if longitude.abs() <= 360.0 && latitude.abs() <= 90.0 && height.is_finite() {
+        Ok(position)
+    } else {
+        Err(wrong(&format!("a place lies at {position:?}")))
+    }
 }

@@ -63,6 +63,14 @@ fn groups() -> [SpellsGroup; 2] {
     [first, second]
 }
 
+/// The same without a grid, whose cells would not be enough.
+fn points() -> SpellsAbout {
+    SpellsAbout {
+        grid: None,
+        ..about()
+    }
+}
+
 fn write(path: &std::path::Path, about: &SpellsAbout, groups: &[SpellsGroup]) {
     let metadata = [("command".to_owned(), "ombra shadows demo".to_owned())];
     write_spells(path, about, &metadata, |writer| {
@@ -103,7 +111,7 @@ fn many_places_come_back() {
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
-    write(&path, &about(), std::slice::from_ref(&group));
+    write(&path, &points(), std::slice::from_ref(&group));
     assert!(SpellsFile::open(&path).unwrap().read(0).unwrap() == group);
 }
 
@@ -138,7 +146,7 @@ fn threads_read_groups_at_once() {
         .collect();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.parquet");
-    write(&path, &about(), &all);
+    write(&path, &points(), &all);
     let file = SpellsFile::open(&path).unwrap();
     std::thread::scope(|scope| {
         for thread in 0..4 {
@@ -203,11 +211,37 @@ fn what_is_wrong_is_said() {
     later.version = 2;
     write(&path, &later, &[]);
     assert!(fault(&path).contains("layout 2"));
-    // Any byte of it.
+    later = about();
+    later.set_grid(Grid {
+        width: 99_999_999,
+        height: 99_999_999,
+        ..about().grid().unwrap()
+    });
+    write(&path, &later, &[]);
+    assert!(fault(&path).contains("too many"));
+    let mut outside = groups()[1].clone();
+    outside.places[0] = 4;
+    write(&path, &about(), &[outside]);
+    assert!(fault(&path).contains("place 4"));
+    let mut nowhere = groups()[1].clone();
+    nowhere.positions[0][1] = f64::NAN;
+    write(&path, &about(), &[nowhere]);
+    assert!(fault(&path).contains("NaN"));
+    // Not all of it.
     write(&path, &about(), &groups());
     let whole = std::fs::read(&path).unwrap();
     for cut in [0, 1, 8, whole.len() / 2, whole.len() - 1] {
         std::fs::write(&path, &whole[..cut]).unwrap();
         assert!(fault(&path).contains("a.parquet"));
+    }
+    // Any byte of it: an error or another answer, and no panic.
+    for (index, change) in
+        (0..whole.len()).flat_map(|index| [(index, 0xff), (index, 1), (index, 0x80)])
+    {
+        let mut bytes = whole.clone();
+        bytes[index] ^= change;
+        std::fs::write(&path, &bytes).unwrap();
+        let _ = SpellsFile::open(&path)
+            .and_then(|file| (0..file.groups()).try_for_each(|group| file.read(group).map(drop)));
     }
 }

@@ -1,7 +1,7 @@
 //! Out.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ombra_accrual::Stretch;
@@ -17,11 +17,12 @@ use parquet::schema::types::ColumnPath;
 
 use super::about::milliseconds;
 use super::{KEY, SCHEMA, SpellsAbout, SpellsGroup};
-use crate::columns::{Bounds, Levels, column, point, write_columns};
+use crate::columns::{Bounds, Levels, column, point, write_columns, write_fault};
 use crate::error::FormatError;
 
 /// Writes groups of places, a few thousand or more each: each is packed by itself.
 pub struct SpellsWriter<'a> {
+    path: PathBuf,
     file: SerializedFileWriter<&'a mut (dyn Write + Send)>,
     bounds: Bounds,
 }
@@ -39,9 +40,10 @@ pub fn write_spells<E: From<FormatError>>(
     metadata: &[(String, String)],
     groups: impl FnOnce(&mut SpellsWriter<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
+    let path = path.as_ref();
     let mut failed = None;
     let written = write_columns(path, |file| {
-        let mut writer = SpellsWriter::new(file)?;
+        let mut writer = SpellsWriter::new(path, file)?;
         if let Err(error) = groups(&mut writer) {
             failed = Some(error);
             return Err(ParquetError::General("a group was not written".to_owned()));
@@ -55,7 +57,7 @@ pub fn write_spells<E: From<FormatError>>(
 }
 
 impl<'a> SpellsWriter<'a> {
-    fn new(file: &'a mut (dyn Write + Send)) -> Result<Self, ParquetError> {
+    fn new(path: &Path, file: &'a mut (dyn Write + Send)) -> Result<Self, ParquetError> {
         let list =
             |name: &str| ColumnPath::from(vec![name.into(), "list".into(), "element".into()]);
         let mut properties = WriterProperties::builder()
@@ -73,6 +75,7 @@ impl<'a> SpellsWriter<'a> {
             .set_column_encoding(geometry, Encoding::DELTA_BYTE_ARRAY);
         let schema = Arc::new(parse_message_type(SCHEMA)?);
         Ok(Self {
+            path: path.to_owned(),
             file: SerializedFileWriter::new(file, schema, Arc::new(properties.build()))?,
             bounds: Bounds::default(),
         })
@@ -93,8 +96,8 @@ impl<'a> SpellsWriter<'a> {
         );
         assert_eq!(group.stretches.len(), group.places.len(), "as many lists");
         self.bounds.add(group.positions.iter().copied());
-        self.columns(group)
-            .map_err(|error| crate::columns::wrong(&error.to_string()))
+        let written = self.columns(group);
+        written.map_err(|error| write_fault(error).in_file(&self.path))
     }
 
     fn columns(&mut self, group: &SpellsGroup) -> Result<(), ParquetError> {

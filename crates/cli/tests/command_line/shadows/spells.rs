@@ -238,7 +238,7 @@ fn the_same_bytes_with_any_number_of_threads() {
             "shadows",
             "demo",
             "--cell",
-            "6",
+            "2",
             "--date",
             "2026-06-21",
             "--quiet",

@@ -227,9 +227,11 @@ impl Run<'_> {
         let mut pace = Pace::new();
         loop {
             let is_over = tile >= tiles.len() || stop.load(Ordering::Relaxed);
-            if group.len() >= GROUP || is_over && !group.is_empty() {
-                let next = first + group.len();
-                write(&self.group(first..next, std::mem::take(&mut group)))?;
+            // Always as many, however long a part took: then the file is the same.
+            while group.len() >= GROUP || is_over && !group.is_empty() {
+                let own = group.take_first(GROUP);
+                let next = first + own.len();
+                write(&self.group(first..next, own))?;
                 first = next;
             }
             if is_over {
@@ -244,8 +246,8 @@ impl Run<'_> {
                 if self.args.spells.is_attribution() {
                     self.shares.push(Share::all(stretches, &self.counted));
                 }
-                group.push(stretches.iter().copied());
             }
+            group.append(&found);
             tile = end;
             pace.end();
             bar.update(self.measured.minutes.len() as u64, total as u64, "places");
