@@ -71,9 +71,16 @@ impl Span {
     /// What two sets share.
     #[must_use]
     pub fn intersection(a: &[Self], b: &[Self]) -> Vec<Self> {
-        a.iter()
-            .flat_map(|a| b.iter().filter_map(move |b| a.common(b)))
-            .collect()
+        let mut shared = Vec::with_capacity(a.len().max(b.len()));
+        // As in a difference.
+        let mut first = 0;
+        for span in a {
+            first += b[first..].partition_point(|other| other.end <= span.start);
+            let others = b[first..].iter();
+            let others = others.take_while(|other| other.start < span.end);
+            shared.extend(others.filter_map(|other| span.common(other)));
+        }
+        shared
     }
 
     /// What is in the set `a` but not in `b`.

@@ -38,13 +38,16 @@ fn print_json(numbers: &impl Serialize) -> anyhow::Result<()> {
     Ok(writeln!(io::stdout(), "{json}")?)
 }
 
-/// Ends with exit code 2 and the usage of a command, as for any other word that cannot be understood.
+/// Ends with exit code 2 and the usage of a command (`shadows query`), as for any other word that cannot be understood.
 fn wrong_usage(command: &str, message: &str) -> ! {
     let mut cli = Cli::command();
     // So that commands know their whole names.
     cli.build();
-    let own = cli.find_subcommand(command).cloned();
-    own.unwrap_or(cli)
+    let mut own = &cli;
+    for word in command.split(' ') {
+        own = own.find_subcommand(word).unwrap_or(own);
+    }
+    own.clone()
         .error(ErrorKind::ValueValidation, message)
         .exit()
 }

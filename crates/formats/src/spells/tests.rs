@@ -235,11 +235,9 @@ fn what_is_wrong_is_said() {
         assert!(fault(&path).contains("a.parquet"));
     }
     // Any byte of it: an error or another answer, and no panic.
-    for (index, change) in
-        (0..whole.len()).flat_map(|index| [(index, 0xff), (index, 1), (index, 0x80)])
-    {
+    for index in 0..whole.len() {
         let mut bytes = whole.clone();
-        bytes[index] ^= change;
+        bytes[index] ^= 0xff;
         std::fs::write(&path, &bytes).unwrap();
         let _ = SpellsFile::open(&path)
             .and_then(|file| (0..file.groups()).try_for_each(|group| file.read(group).map(drop)));

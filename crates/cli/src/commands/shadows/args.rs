@@ -212,7 +212,7 @@ pub(crate) struct WhenArgs {
     #[arg(long, value_name = "NAME", conflicts_with = "from", value_parser = said::<Season>)]
     pub(crate) season: Option<Said<Season>>,
 
-    /// The year of what is named without one [default: this year]
+    /// The year of what is named without one [default: this year; of a file of spells its first]
     #[arg(long, value_name = "YEAR")]
     pub(crate) year: Option<i16>,
 

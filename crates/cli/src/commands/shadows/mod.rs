@@ -71,7 +71,7 @@ fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
     refuse_maps_of_no_grid(args);
     products::refuse(args);
     refuse_what_is_not_used(args);
-    refuse_to_write_what_is_read(args, args.files());
+    refuse_to_write_what_is_read(args.inputs(), args.files());
     spells::refuse(args);
     if args.resume && !asks_for_files && !is_tour {
         wrong_usage("--resume goes on with an output: name it, with -o or --png");
@@ -270,24 +270,39 @@ fn refuse_unknown_output(args: &ShadowsArgs) {
     }
 }
 
-/// No output may be one of the files that are read, by whatever name.
-fn refuse_to_write_what_is_read(
-    args: &ShadowsArgs,
+/// No output may be one of the files that are read, or another output, by whatever name.
+fn refuse_to_write_what_is_read<'a>(
+    inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = impl AsRef<Path>>,
 ) {
-    let same = |a: &Path, b: &Path| {
-        let [a, b] = [a, b].map(std::fs::canonicalize);
-        a.is_ok_and(|a| b.is_ok_and(|b| a == b))
-    };
+    let inputs: Vec<PathBuf> = inputs.into_iter().filter_map(whole_path).collect();
+    let mut known = Vec::new();
     for output in outputs {
         let output = output.as_ref();
-        if args.inputs().any(|input| same(input, output)) {
-            wrong_usage(&format!(
-                "{}: is a file that is read; write to another one",
-                output.display()
-            ));
+        let wrong = |why: &str| wrong_usage(&format!("{}: {why}", output.display()));
+        let Some(whole) = whole_path(output) else {
+            continue;
+        };
+        if inputs.contains(&whole) {
+            wrong("is a file that is read; write to another one");
         }
+        if known.contains(&whole) {
+            wrong("is written twice; give each output a name of its own");
+        }
+        known.push(whole);
     }
+}
+
+/// Where a file is or is to be, without links; none if its folder is not there.
+fn whole_path(path: &Path) -> Option<PathBuf> {
+    let name = || {
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        let folder = std::fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    std::fs::canonicalize(path).ok().or_else(name)
 }
 
 fn wrong_usage(message: &str) -> ! {

@@ -8,6 +8,12 @@ use ombra::geometry::Point3;
 use super::bound::Bound;
 use super::places::{Kind, Places, Within};
 
+/// Longitude, latitude and height.
+pub(super) fn position(city: &City, at: Point3) -> [f64; 3] {
+    let [longitude, latitude] = city.origin.to_geographic([at.x, at.y].map(f64::from));
+    [longitude, latitude, f64::from(at.z)]
+}
+
 /// Calls with all rows in turn: `minutes` are one number a place, NaN where there is none. Of a city that is changed, where they are after
 /// the change, `change` are those before it and how many are new. `by` is what each building takes.
 pub(super) fn with_rows<R>(
@@ -18,10 +24,7 @@ pub(super) fn with_rows<R>(
     by: Option<&[Vec<PlaceShare<'_>>]>,
     write: impl FnOnce(&mut dyn Iterator<Item = PlaceRow<'_>>) -> R,
 ) -> R {
-    let position = |at: Point3| {
-        let [longitude, latitude] = city.origin.to_geographic([at.x, at.y].map(f64::from));
-        [longitude, latitude, f64::from(at.z)]
-    };
+    let position = |at| position(city, at);
     let number = |value: f32| Some(value).filter(|value| !value.is_nan());
     let known = |index: usize| number(minutes[index]);
     let change = |index: usize| {

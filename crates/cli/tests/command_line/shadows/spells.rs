@@ -253,6 +253,43 @@ fn the_same_bytes_with_any_number_of_threads() {
 }
 
 #[test]
+fn days_far_apart_are_asked_for_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let days = ["--date", "1990-06-21,2026-12-20..2026-12-21"];
+    let run = told(
+        folder,
+        &[
+            &["demo", "--cell", "16"],
+            &days[..],
+            &["--spells", "a.parquet"],
+        ]
+        .concat(),
+    );
+    let asked = query(folder, &["a.parquet"]);
+    assert_eq!(
+        asked["when"],
+        "1990-06-21,2026-12-20 to 2026-12-21"
+    );
+    assert!((number(&run, "minutes_mean") - number(&asked, "minutes_mean")).abs() < 1e-3);
+    assert!((number(&run, "sun_hours") - number(&asked, "sun_hours")).abs() < 1e-5);
+    // A weight that is of none of it changes nothing, and is told.
+    let idle = [
+        "shadows",
+        "query",
+        "a.parquet",
+        "--weight",
+        "2027=5",
+        "--json",
+    ];
+    let output = crate::run(folder, &idle);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("2027=5"));
+    let idle: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(idle["minutes_mean"], asked["minutes_mean"]);
+    assert_eq!(idle["weights"], json!(["2027=5"]));
+}
+
+#[test]
 fn what_cannot_be_asked_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -295,6 +332,23 @@ fn what_cannot_be_asked_is_said() {
     assert!(asked(2, &["a.parquet", "--weight", "12:00-13:00"]).contains("=2"));
     assert!(asked(2, &["a.parquet", "--weight", "someday=2"]).contains("someday"));
     assert!(asked(2, &["a.parquet", "-o", "b.png"]).contains(".csv"));
+    assert!(asked(2, &["a.parquet", "--time-zone", "Foo/Bar"]).contains("Europe/Berlin"));
+    assert!(asked(2, &["a.parquet", "--year", "2019"]).contains("--year"));
+    assert!(asked(2, &["a.parquet", "-o", "q.csv", "--by-building", "q.csv"]).contains("twice"));
+    assert!(asked(2, &["a.parquet", "-o", "q.csv", "--hours", "9"]).contains("from-to"));
+    // Four buildings of the city that is built in have this name.
+    let several = asked(1, &["a.parquet", "--building", "tower"]);
+    assert!(
+        several.contains("4 buildings") && several.contains("#125"),
+        "{several}"
+    );
+    for (more, said) in [
+        (&["--attribute"][..], "--json"),
+        (&["--spells", "x.parquet", "-o", "./x.parquet"], "twice"),
+    ] {
+        let all = [&["shadows", "demo", "--date", "2026-12-21"], more].concat();
+        assert!(fail(folder, &all, 2).contains(said), "{more:?}");
+    }
     std::fs::write(folder.join("b.parquet"), b"PAR1 and no more").unwrap();
     assert!(asked(1, &["b.parquet"]).contains("b.parquet"));
 }

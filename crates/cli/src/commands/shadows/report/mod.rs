@@ -31,7 +31,7 @@ pub(super) fn run(args: &ShadowsArgs, rule: Rule) -> anyhow::Result<ExitCode> {
     refuse(args, rule);
     refuse_what_is_not_used(args);
     let outputs = Outputs::of(args.output.as_deref());
-    refuse_to_write_what_is_read(args, outputs.paths());
+    refuse_to_write_what_is_read(args.inputs(), outputs.paths());
     let session = Session::new(args)?;
     outputs.check()?;
     let talk = Talk { quiet: args.quiet };

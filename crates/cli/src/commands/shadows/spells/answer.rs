@@ -104,7 +104,8 @@ impl Answer<'_> {
                 minutes(summary.longest_sun),
                 summary.spells.into(),
             ];
-            let pairs = COLUMNS.into_iter().zip(values);
+            // The row itself has the minutes in shadow.
+            let pairs = COLUMNS.into_iter().zip(values).skip(1);
             let place = [("place", Value::from(place))];
             place
                 .into_iter()

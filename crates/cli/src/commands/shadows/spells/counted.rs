@@ -15,6 +15,11 @@ pub(crate) struct Weight {
 }
 
 impl Weight {
+    /// As it was typed.
+    pub(super) fn text(&self) -> String {
+        format!("{}={}", self.what, self.weight)
+    }
+
     /// From text; days are read later, by whose calendar they are.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let wanted = "hours or days and a number are wanted, as 12:00-14:00=2 or winter=0.5";
@@ -37,13 +42,15 @@ impl Weight {
     }
 }
 
-/// Some stretches of time, in order, each with its weight: those of all weights that it lies in, multiplied.
+/// Some stretches of time, in order, each with its weight: those of all weights that it lies in, multiplied. And those weights that none
+/// of it lies in.
 pub(super) fn weighed(
     spans: &[Span],
     weights: &[Weight],
     dates: &[Date],
     (sky, zone, calendar): (&Sky, &TimeZone, &Calendar),
-) -> Result<Vec<Counted>, String> {
+) -> Result<(Vec<Counted>, Vec<String>), String> {
+    let mut idle = Vec::new();
     let mut all: Vec<Counted> = spans.iter().map(|&span| Counted::plainly(span)).collect();
     for weight in weights {
         let (hours, days) = match &weight.hours {
@@ -61,12 +68,16 @@ pub(super) fn weighed(
             .iter()
             .flat_map(|&date| hours.spans(sky, zone, date))
             .collect();
+        let now: Vec<Span> = all.iter().map(|counted| counted.span).collect();
+        if Span::intersection(&now, &within).is_empty() {
+            idle.push(weight.text());
+        }
         all = all
             .iter()
             .flat_map(|counted| split(counted, &within, weight.weight))
             .collect();
     }
-    Ok(all)
+    Ok((all, idle))
 }
 
 /// The parts of a stretch of time within others, by a weight more, and without.
@@ -100,24 +111,6 @@ fn split(counted: &Counted, within: &[Span], weight: f64) -> Vec<Counted> {
     parts
 }
 
-/// What two lists of stretches of time, each in order, have in common.
-pub(super) fn common(some: &[Span], others: &[Span]) -> Vec<Span> {
-    let mut all = Vec::new();
-    for span in some {
-        let first = others.partition_point(|other| other.end <= span.start);
-        for other in others[first..]
-            .iter()
-            .take_while(|other| other.start < span.end)
-        {
-            let (from, to) = (span.start.max(other.start), span.end.min(other.end));
-            if from < to {
-                all.push(Span::new(from, to));
-            }
-        }
-    }
-    all
-}
-
 #[cfg(test)]
 mod tests {
     use ombra::sun::Instant;
@@ -143,20 +136,6 @@ mod tests {
         ] {
             assert!(Weight::parse(wrong).is_err(), "{wrong}");
         }
-    }
-
-    #[test]
-    fn what_is_common_is_in_both() {
-        let some = [span(0.0, 10.0), span(20.0, 30.0)];
-        let others = [span(-5.0, 1.0), span(2.0, 25.0), span(29.0, 40.0)];
-        let expected = [
-            span(0.0, 1.0),
-            span(2.0, 10.0),
-            span(20.0, 25.0),
-            span(29.0, 30.0),
-        ];
-        assert_eq!(common(&some, &others), expected);
-        assert!(common(&some, &[]).is_empty() && common(&[], &others).is_empty());
     }
 
     #[test]

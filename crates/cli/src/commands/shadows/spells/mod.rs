@@ -4,7 +4,6 @@ mod answer;
 mod buildings;
 mod counted;
 pub(super) mod query;
-mod rows;
 
 use std::io::{self, IsTerminal as _};
 use std::path::PathBuf;
@@ -19,10 +18,11 @@ use ombra::formats::FormatError;
 use ombra::formats::places::PlaceShare;
 use ombra::formats::spells::{SpellsAbout, SpellsGroup, write_spells};
 
-use super::args::{Method, ShadowsArgs, csv, parquet};
+use super::args::{Method, OutputKind, ShadowsArgs, csv, parquet};
 use super::measure::{Measured, Pace};
 use super::output;
 use super::places::{Kind, Places};
+use super::rows::position;
 use super::when::When;
 use super::{Session, wrong_usage};
 use crate::commands::Talk;
@@ -78,6 +78,13 @@ pub(super) fn refuse(args: &ShadowsArgs) {
             args.method.name()
         ));
     }
+    let is_shown = args.json || args.spells.by_building.is_some() || args.spells.spells.is_some();
+    let is_list = |path: &PathBuf| OutputKind::of(path) != OutputKind::GeoTiff;
+    if args.spells.attribute && !is_shown && !args.output.as_ref().is_some_and(is_list) {
+        wrong_usage(
+            "--attribute is shown by --json, and by -o with .geojson or .parquet; --by-building is a table of buildings",
+        );
+    }
     if args.sun.disc {
         wrong_usage(&format!("{option}: the sun is a point; leave out --disc"));
     }
@@ -105,12 +112,23 @@ impl Attribution {
     pub(super) fn spread<'a>(&self, places: &Places, city: &'a City) -> Vec<Vec<PlaceShare<'a>>> {
         let mut all = vec![Vec::new(); places.count()];
         for (index, shares) in places.numbers(0..self.shares.len()).zip(&self.shares) {
-            all[index as usize] = shares
-                .iter()
-                .map(|share| rows::share(share, city))
-                .collect();
+            all[index as usize] = shares.iter().map(|share| named(share, city)).collect();
         }
         all
+    }
+}
+
+/// What one building takes from a place, as a row has it.
+fn named<'a>(share: &Share, city: &'a City) -> PlaceShare<'a> {
+    PlaceShare {
+        building: (share.owner < Facet::CONTEXT).then_some(share.owner),
+        building_id: match share.owner {
+            Facet::CONTEXT => Some("other"),
+            Facet::TERRAIN => Some("terrain"),
+            number => city.buildings[number as usize].id.as_deref(),
+        },
+        minutes: (share.seconds / 60.0) as f32,
+        alone: (share.alone / 60.0) as f32,
     }
 }
 
@@ -260,7 +278,7 @@ impl Run<'_> {
         let at = &self.places.tiles.places()[which.clone()];
         SpellsGroup {
             places: self.places.numbers(which).collect(),
-            positions: at.iter().map(|&at| rows::position(self.city, at)).collect(),
+            positions: at.iter().map(|&at| position(self.city, at)).collect(),
             stretches,
         }
     }

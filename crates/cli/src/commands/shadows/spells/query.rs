@@ -1,25 +1,28 @@
 //! `ombra shadows query`: answers from a file of spells, without looking at the city again.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use clap::Args;
+use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use ombra::accrual::{Counted, Share, Stretch, Summary};
 use ombra::formats::can_write_whole;
 use ombra::formats::spells::{SpellsAbout, SpellsFile};
 use ombra::pipeline::Cpu;
-use ombra::sun::{Calendar, Place, Span};
+use ombra::sun::{Place, Span};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::super::args::{SunArgs, WhenArgs, csv, ends_in};
-use super::super::when::When;
+use super::super::refuse_to_write_what_is_read;
+use super::super::when::{When, calendar};
 use super::answer::{self, Answer};
 use super::buildings::{self, BuildingRow, Buildings};
-use super::counted::{Weight, common, weighed};
+use super::counted::{Weight, weighed};
 use crate::commands::Talk;
 
 /// Answers from a file of spells, in no time: minutes of shadow and sun, the first and the last sun, the longest, how often
@@ -67,6 +70,10 @@ fn output(text: &str) -> Result<PathBuf, String> {
     ends_in(text, &["csv", "geojson", "tif", "tiff"])
 }
 
+fn wrong_usage(message: &str) -> ! {
+    crate::commands::wrong_usage("shadows query", message)
+}
+
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Statistics<'a> {
@@ -74,6 +81,9 @@ struct Statistics<'a> {
     output: Option<&'a PathBuf>,
     places: usize,
     when: &'a str,
+    weights: Vec<String>,
+    /// Whose shadow counts, if not that of all.
+    building: Option<&'a str>,
     time_zone: &'a str,
     /// Hours that are asked about, by their weights.
     sun_hours: f64,
@@ -93,15 +103,15 @@ struct Statistics<'a> {
 
 pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
     let talk = Talk { quiet: args.quiet };
-    for path in [&args.output, &args.by_building].into_iter().flatten() {
-        let same = |path: &PathBuf| std::fs::canonicalize(path).ok();
-        if same(path).is_some_and(|own| Some(own) == same(&args.spells)) {
-            super::super::wrong_usage(&format!(
-                "{}: is a file that is read; write to another one",
-                path.display()
-            ));
-        }
+    let outputs = || [&args.output, &args.by_building].into_iter().flatten();
+    refuse_to_write_what_is_read([&*args.spells], outputs());
+    for path in outputs() {
         can_write_whole(path)?;
+    }
+    if args.when.year.is_some() && !args.when.names_days() && args.weight.is_empty() {
+        wrong_usage(
+            "--year is of days that are named without one, as winter; --date 2026 is a year",
+        );
     }
     let cpu = Cpu::with_threads(args.threads as usize).context("cannot start the threads")?;
     let file = SpellsFile::open(&args.spells)?;
@@ -112,7 +122,7 @@ pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
         .is_some_and(|path| answer::is_map(path))
         && about.grid().is_none()
     {
-        super::super::wrong_usage(
+        wrong_usage(
             "a map (.tif) is of a grid over the ground; places on roofs and facades and points are written as .csv or \
              .geojson",
         );
@@ -188,6 +198,8 @@ pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
         output: args.output.as_ref(),
         places,
         when: &when.text,
+        weights: args.weight.iter().map(Weight::text).collect(),
+        building: args.building.as_deref(),
         time_zone: &when.zone,
         sun_hours: counted.iter().map(weight).sum(),
         minutes_least: minutes().fold(f64::INFINITY, f64::min),
@@ -222,8 +234,14 @@ fn line(statistics: &Statistics<'_>) -> String {
     let file = statistics
         .output
         .map_or_else(String::new, |path| format!("{}: ", path.display()));
+    let whose = (statistics.building).map_or_else(String::new, |id| format!(", of {id} alone"));
+    let weights = if statistics.weights.is_empty() {
+        String::new()
+    } else {
+        format!(", weighed by {}", statistics.weights.join(" and "))
+    };
     format!(
-        "{file}{when}: {minutes_mean:.1} of {:.1} minutes in shadow on average at {places} places, {minutes_most:.1} at most; \
+        "{file}{when}{whose}{weights}: {minutes_mean:.1} of {:.1} minutes in shadow on average at {places} places, {minutes_most:.1} at most; \
          the longest sun {longest_sun_mean:.1} minutes, {spells_mean:.1} spells of shadow; read in {:.0} ms, answered in {:.1} ms",
         sun_hours * 60.0,
         1e3 * statistics.read_seconds,
@@ -233,24 +251,50 @@ fn line(statistics: &Statistics<'_>) -> String {
 
 /// The building of a name or a number.
 fn find(name: &str, about: &SpellsAbout) -> anyhow::Result<u32> {
-    let named = about
-        .buildings
-        .iter()
-        .position(|id| id.as_deref() == Some(name));
+    let all = about.buildings.iter().enumerate();
+    let named: Vec<usize> = all
+        .filter_map(|(number, id)| (id.as_deref() == Some(name)).then_some(number))
+        .collect();
     let count = about.buildings.len();
     let numbered = || {
-        name.strip_prefix('#')?
-            .parse()
-            .ok()
-            .filter(|&number: &usize| number < count)
+        let number = name.strip_prefix('#')?.parse().ok();
+        number.filter(|&number: &usize| number < count)
     };
-    match named.or_else(numbered) {
-        Some(number) => Ok(number as u32),
-        None => bail!(
+    match (&named[..], numbered()) {
+        (&[number], _) | (&[], Some(number)) => Ok(number as u32),
+        (&[], None) => bail!(
             "--building {name}: the file has no such building; it has {count}, by their names or as #0 to #{}",
             count.saturating_sub(1)
         ),
+        (several, _) => {
+            let few = several.iter().take(8).map(|number| format!("#{number}"));
+            let few: Vec<String> = few.collect();
+            bail!(
+                "--building {name}: {} buildings are called so; name one by its number: {}",
+                several.len(),
+                few.join(", ")
+            )
+        }
     }
+}
+
+/// Days as they are asked for: 2026-06-20..2026-06-22,2026-12-21.
+fn listed(dates: &BTreeSet<Date>) -> String {
+    let mut parts: Vec<[Date; 2]> = Vec::new();
+    for &date in dates {
+        match parts.last_mut() {
+            Some([_, last]) if last.tomorrow().ok() == Some(date) => *last = date,
+            _ => parts.push([date, date]),
+        }
+    }
+    let word = |[first, last]: &[Date; 2]| {
+        if first == last {
+            first.to_string()
+        } else {
+            format!("{first}..{last}")
+        }
+    };
+    parts.iter().map(word).collect::<Vec<_>>().join(",")
 }
 
 /// The time that is asked about, as far as the file holds it.
@@ -264,26 +308,26 @@ fn asked(
         bail!("{}: holds no time", args.spells.display());
     };
     let mut asked = args.when.clone();
-    let name = asked
-        .time_zone
-        .get_or_insert_with(|| about.time_zone.clone());
-    let zone = TimeZone::get(name).with_context(|| format!("time zone {name}"))?;
+    if asked.time_zone.is_none() {
+        TimeZone::get(&about.time_zone)
+            .with_context(|| format!("{}: its time zone", args.spells.display()))?;
+        asked.time_zone = Some(about.time_zone.clone());
+    }
+    let place = Place::new(about.latitude, about.longitude, 0.0)?;
+    let zone = calendar(&asked, &place)?.zone;
+    let ends = held.iter().flat_map(|span| [span.start, span.end]);
+    let dates: BTreeSet<Date> = ends.map(|end| end.zoned(&zone).date()).collect();
     let [first, last] = [first.start, last.end].map(|instant| instant.zoned(&zone).date());
     if !asked.names_days() {
-        asked.date = Some(if first == last {
-            first.to_string()
-        } else {
-            format!("{first}..{last}")
-        });
+        asked.date = Some(listed(&dates));
     }
     asked.year = asked.year.or(Some(first.year()));
     let sun = SunArgs {
         refraction: about.refraction,
         disc: false,
     };
-    let place = Place::new(about.latitude, about.longitude, 0.0)?;
     let when = When::new(&asked, sun, place, None)?;
-    let spans = common(&when.spans, &held);
+    let spans = Span::intersection(&when.spans, &held);
     if spans.is_empty() {
         bail!(
             "{}: holds nothing of {}: it goes from {first} to {last}",
@@ -302,15 +346,19 @@ fn asked(
             seconds(&when.spans) / 3600.0
         ));
     }
-    let year = asked.year.unwrap_or(first.year());
-    let calendar = Calendar::with_zone(&place, year, zone.clone())?;
-    let counted = weighed(
+    let calendar = calendar(&asked, &place)?;
+    let weighed = weighed(
         &spans,
         &args.weight,
         &when.dates,
         (&when.suns[0], &zone, &calendar),
     );
-    let counted = counted.unwrap_or_else(|error| super::super::wrong_usage(&error));
+    let (counted, idle) = weighed.unwrap_or_else(|error| wrong_usage(&error));
+    for weight in idle {
+        talk.say(&format!(
+            "--weight {weight}: none of what is asked about lies in it"
+        ));
+    }
     Ok((when, counted))
 }
 
@@ -327,7 +375,17 @@ fn metadata(file: &SpellsFile, when: &When, args: &QueryArgs) -> Vec<(String, St
         ("when", when.text.clone()),
         ("time_zone", when.zone.clone()),
         ("unit", "minutes".to_owned()),
+        ("building", args.building.clone().unwrap_or_default()),
+        (
+            "weights",
+            args.weight
+                .iter()
+                .map(Weight::text)
+                .collect::<Vec<_>>()
+                .join(", "),
+        ),
     ];
+    let own = own.into_iter().filter(|(_, value)| !value.is_empty());
     all.extend(own.map(|(name, value)| (name.to_owned(), value)));
     all
 }
