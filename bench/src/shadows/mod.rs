@@ -16,9 +16,9 @@ mod what_if;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use ombra_accel::Level;
-use ombra_accrual::{Exact, Fast, Occluders, Tiles};
+use ombra_accrual::{Exact, Fast, Occluders, Spells, Stretch, Tiles};
 use ombra_city::{City, Inside, procedural_city};
 use ombra_formats::city::{CityOptions, read_city};
 use ombra_geometry::Point3;
@@ -37,6 +37,9 @@ pub(crate) use self::samples::Samples;
 
 /// How far the year by some of its days may be off, as a share of the time that the sun is up.
 const TOLERANCE: f64 = 0.005;
+
+/// How far minutes and the sum of stretches may be apart, in seconds: each of some dozens begins and ends within milliseconds.
+const APART: f64 = 0.5;
 
 /// The name of the generated city among the cities.
 pub const PROCEDURAL: &str = "procedural";
@@ -193,6 +196,10 @@ fn measure(
         bench.by_level(period, &ground)?;
         bench.by_threads(period, &ground)?;
     }
+    for period in short.iter().chain(&whole) {
+        talk(&format!("  who shades whom, {}", period.name));
+        bench.by_owner(period, &ground)?;
+    }
     if !city.buildings.is_empty() {
         let found = what_if(name, city, options.what_if_cell, talk)?;
         report.what_if.extend(found);
@@ -300,6 +307,35 @@ impl Bench<'_> {
         let times = by_threads(&exact, places, &[1, 2], self.rounds)?;
         for (&micros, way) in times.iter().zip(["1 thread", "2 threads"]) {
             self.own(period, way, micros, times[0]);
+        }
+        Ok(())
+    }
+
+    /// Minutes, and whose shadow it is besides.
+    fn by_owner(&mut self, period: &Period, places: &[Point3]) -> anyhow::Result<()> {
+        if places.is_empty() {
+            return Ok(());
+        }
+        let exact = Exact::new(self.occluders, &period.sheets);
+        let spells = Spells::new(self.occluders, &period.sheets);
+        let sum = |stretches: &[Stretch]| stretches.iter().map(Stretch::seconds).sum();
+        let contestants = [
+            Contestant::new("minutes", |places| exact.seconds(places)),
+            Contestant::new("stretches, by building", |places| {
+                spells.stretches(places).iter().map(sum).collect()
+            }),
+        ];
+        let outcomes = contest(&contestants, places, self.rounds)?;
+        let off = Difference::of(&outcomes[1].seconds, &outcomes[0].seconds);
+        if off.most > APART {
+            bail!(
+                "{}: stretches and minutes are {:.2} s apart",
+                period.name,
+                off.most
+            );
+        }
+        for (who, outcome) in contestants.iter().zip(&outcomes) {
+            self.own(period, &who.name, outcome.micros, outcomes[0].micros);
         }
         Ok(())
     }

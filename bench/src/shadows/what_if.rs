@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use ombra_accrual::{Again, Exact, Occluders, Tiles};
+use ombra_accrual::{Again, Dark, Exact, Occluders, Tiles};
 use ombra_city::{Building, Change, City, Edits, Grid};
 use serde::Serialize;
 
@@ -82,14 +82,22 @@ fn one(
 ) -> anyhow::Result<WhatIfRecord> {
     let begin = Instant::now();
     let occluders = Occluders::new(&city.facets());
-    let before = whole(&occluders, tiles, period, grid.count());
+    let dark = Dark::new(tiles.len(), period.sheets.len());
+    let before = whole(&occluders, tiles, period, grid.count(), dark.as_ref());
     let full_seconds = begin.elapsed().as_secs_f64();
 
     let begin = Instant::now();
     let after = city.edited(edits)?;
     let change = Change::between(city, &after);
     let fresh = Tiles::on_changed_ground(&after.city, grid, &change, |_| true);
-    let again = Again::new(&occluders, &change, &period.sheets, tiles, fresh);
+    let again = Again::new(
+        &occluders,
+        &change,
+        &period.sheets,
+        tiles,
+        dark.as_ref(),
+        fresh,
+    );
     let find_seconds = begin.elapsed().as_secs_f64();
     let exact = again.exact(&period.sheets);
     let measured = exact.seconds_of(again.tiles(), 0..again.tiles().len());
@@ -99,7 +107,7 @@ fn one(
 
     let anew = Tiles::on_ground(&after.city, grid, |_| true);
     let occluders = Occluders::new(&after.city.facets());
-    let expected = whole(&occluders, &anew, period, grid.count());
+    let expected = whole(&occluders, &anew, period, grid.count(), None);
     let is_same = |(a, b): (&f32, &f32)| a.to_bits() == b.to_bits();
     if !found.iter().zip(&expected).all(is_same) {
         bail!(
@@ -125,14 +133,23 @@ fn one(
 }
 
 /// Seconds by cell, NaN in buildings.
-fn whole(occluders: &Occluders, tiles: &Tiles, period: &Period, cells: usize) -> Vec<f32> {
+fn whole(
+    occluders: &Occluders,
+    tiles: &Tiles,
+    period: &Period,
+    cells: usize,
+    dark: Option<&Dark>,
+) -> Vec<f32> {
     let exact = Exact::new(occluders, &period.sheets);
     let mut values = vec![f32::NAN; cells];
     // Some at a time: all seconds in double precision would take much memory.
     const PART: usize = 1 << 16;
     for first in (0..tiles.len()).step_by(PART) {
         let part = first..tiles.len().min(first + PART);
-        let seconds = exact.seconds_of(tiles, part.clone());
+        let seconds = match dark {
+            Some(dark) => exact.seconds_and_dark(tiles, part.clone(), dark),
+            None => exact.seconds_of(tiles, part.clone()),
+        };
         for (&index, seconds) in tiles.indices()[tiles.range(part)].iter().zip(seconds) {
             values[index as usize] = seconds as f32;
         }

@@ -13,6 +13,7 @@ use ombra_geometry::{Aabb, Point3};
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
+use crate::dark::Dark;
 use crate::exact::{Exact, TILES};
 use crate::kernel::{Room, may_cover};
 use crate::occluder::Occluders;
@@ -36,22 +37,27 @@ pub struct Again {
 
 impl Again {
     /// After a change of what throws shadow, of what was measured `before` on the same ways of the sun. `fresh` are the places that lie
-    /// in no building after it, of all those that it may put into one or out of one ([`Change::is_within`]).
+    /// in no building after it, of all those that it may put into one or out of one ([`Change::is_within`]). It is quicker with
+    /// what was `dark` before, see [`Exact::seconds_and_dark`].
     #[must_use]
     pub fn new(
         occluders: &Occluders,
         change: &Change,
         sheets: &[Sheet],
         before: &Tiles,
+        dark: Option<&Dark>,
         fresh: Tiles,
     ) -> Self {
         let kept = occluders.without(change.removed());
         let changed = Occluders::new(change.facets());
+        let gone = Occluders::new(change.removed());
         let exact = Exact::new(&kept, sheets).with(&changed);
         let look = Look {
             exact: &exact,
             changed: &changed,
+            gone: &gone,
             tiles: before,
+            dark,
         };
         let is_within = |place: Point3| change.is_within([place.x, place.y]);
         let blocks = (0..before.len()).into_par_iter().step_by(BLOCK);
@@ -115,7 +121,10 @@ struct Look<'a> {
     /// With what stays, and besides with what is changed.
     exact: &'a Exact<'a>,
     changed: &'a Occluders,
+    /// Those of the changed that are not there any more.
+    gone: &'a Occluders,
     tiles: &'a Tiles,
+    dark: Option<&'a Dark>,
 }
 
 impl Look<'_> {
@@ -130,7 +139,8 @@ impl Look<'_> {
                 let lists = self.tiles.lists(part.clone());
                 let tiles: ArrayVec<Tile, TILES> =
                     lists.iter().map(|list| Tile::new(list)).collect();
-                let changed = self.exact.changes(&tiles, room);
+                let dark = |tile, sheet| self.dark.map_or(0, |dark| dark.get(first + tile, sheet));
+                let changed = self.exact.changes(&tiles, self.gone, dark, room);
                 found.extend(part.filter(|tile| changed >> (tile - first) & 1 == 1));
             }
         }
@@ -185,11 +195,20 @@ mod tests {
     fn check(before: &City, after: &Edited, grid: &Grid, sheets: &[Sheet]) -> [usize; 2] {
         let occluders = Occluders::new(&before.facets());
         let (tiles, seconds) = whole(before, &occluders, grid, sheets);
+        let dark = Dark::new(tiles.len(), sheets.len()).unwrap();
+        let kept = Exact::new(&occluders, sheets).seconds_and_dark(&tiles, 0..tiles.len(), &dark);
+        let kept = tiles.indices().iter().zip(kept);
+        assert!(
+            kept.into_iter()
+                .all(|(&index, own)| own.to_bits() == seconds[index as usize].to_bits())
+        );
         let anew = Occluders::new(&after.city.facets());
         let (_, expected) = whole(&after.city, &anew, grid, sheets);
         let change = Change::between(before, after);
         let fresh = Tiles::on_changed_ground(&after.city, grid, &change, |_| true);
-        let again = Again::new(&occluders, &change, sheets, &tiles, fresh);
+        let again = |dark| Again::new(&occluders, &change, sheets, &tiles, dark, fresh.clone());
+        let [again, slowly] = [again(Some(&dark)), again(None)];
+        assert_eq!(again.tiles.indices(), slowly.tiles.indices());
         let exact = again.exact(sheets);
         let measured = exact.seconds_of(again.tiles(), 0..again.tiles().len());
         let found = again.after(&seconds, &measured, f64::NAN);

@@ -10,6 +10,7 @@ use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
+use crate::dark::Dark;
 use crate::kernel::{Job, Room, add_seconds, changes};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile, is_somewhere};
@@ -78,8 +79,27 @@ impl<'a> Exact<'a> {
         self.each(&tiles.lists(which))
     }
 
+    /// The same, and keeps what [`Again`](crate::Again) is quicker with.
+    #[must_use]
+    pub fn seconds_and_dark(
+        &self,
+        tiles: &Tiles,
+        which: std::ops::Range<usize>,
+        dark: &Dark,
+    ) -> Vec<f64> {
+        let begin = which.start;
+        by_tiles(&tiles.lists(which), |first, tiles, room| {
+            let mut sums: Sums = tiles.iter().map(|_| [0.0; PLACES]).collect();
+            self.by_way(tiles, room, |tile, sheet, seconds, full| {
+                add(&mut sums[tile], seconds);
+                dark.set(begin + first + tile, sheet, full);
+            });
+            sums
+        })
+    }
+
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
-        by_tiles(lists, |tiles, room| self.sums(tiles, room))
+        by_tiles(lists, |_, tiles, room| self.sums(tiles, room))
     }
 
     /// The ways of the sun.
@@ -87,11 +107,22 @@ impl<'a> Exact<'a> {
         &self.ways
     }
 
-    /// For which tiles, by bits, the polygons that it has besides make a difference. There are [`TILES`] at most.
-    pub(crate) fn changes(&self, tiles: &[Tile], room: &mut Room) -> u32 {
+    /// For which tiles, by bits, the polygons that it has besides make a difference; some of them are `gone` now, and the others are new.
+    /// There are [`TILES`] at most. `dark_of` are the arcs of a tile and a sheet that were covered wholly.
+    pub(crate) fn changes(
+        &self,
+        tiles: &[Tile],
+        gone: &Occluders,
+        dark_of: impl Fn(usize, usize) -> u64,
+        room: &mut Room,
+    ) -> u32 {
         let jobs = self.jobs(tiles);
         jobs.fold(0, |found, (first, job)| {
-            found | changes(self.level, job, room) << first
+            let tiles = first..first + job.tiles.len();
+            let dark = tiles.flat_map(|tile| job.ways.which.iter().map(move |&way| (tile, way)));
+            let dark: ArrayVec<u64, TOGETHER> =
+                dark.map(|(tile, way)| dark_of(tile, way)).collect();
+            found | changes(self.level, job, gone, &dark, room) << first
         })
     }
 
@@ -119,51 +150,60 @@ impl<'a> Exact<'a> {
     /// How many seconds each place of some tiles lies in shadow.
     pub(crate) fn sums(&self, tiles: &[Tile], room: &mut Room) -> Sums {
         let mut sums: Sums = tiles.iter().map(|_| [0.0; PLACES]).collect();
-        self.by_way(tiles, room, |tile, _, seconds| {
-            for (sum, seconds) in sums[tile].iter_mut().zip(seconds) {
-                *sum += seconds;
-            }
+        self.by_way(tiles, room, |tile, _, seconds, _| {
+            add(&mut sums[tile], seconds);
         });
         sums
     }
 
-    /// Shows how many seconds of each sheet, by its number, lie in shadow for each place of each tile.
+    /// Shows how many seconds of each sheet, by its number, lie in shadow for each place of each tile, and which of its arcs do so wholly
+    /// for all of them.
     pub(crate) fn by_way(
         &self,
         tiles: &[Tile],
         room: &mut Room,
-        mut show: impl FnMut(usize, usize, &[f64; PLACES]),
+        mut show: impl FnMut(usize, usize, &[f64; PLACES], u64),
     ) {
         for (first, job) in self.jobs(tiles) {
             let mut seconds = [[0.0; PLACES]; TOGETHER];
             add_seconds(self.level, job, room, &mut seconds);
-            let by_tile = seconds.chunks_exact(job.ways.list().len());
+            let count = job.ways.list().len();
+            let by_tile = seconds.chunks_exact(count);
             for (tile, seconds) in by_tile.take(job.tiles.len()).enumerate() {
-                for (&which, seconds) in job.ways.which.iter().zip(seconds) {
-                    show(first + tile, which, seconds);
+                for (way, (&which, seconds)) in job.ways.which.iter().zip(seconds).enumerate() {
+                    show(first + tile, which, seconds, room.full(tile * count + way));
                 }
             }
         }
     }
 }
 
+fn add(sums: &mut [f64; PLACES], seconds: &[f64; PLACES]) {
+    for (sum, seconds) in sums.iter_mut().zip(seconds) {
+        *sum += seconds;
+    }
+}
+
 /// By tile the seconds of its places.
 pub(crate) type Sums = ArrayVec<[f64; PLACES], TILES>;
 
-/// Lists of up to sixteen places in parallel: `sum` gives the seconds of tiles that lie near one another.
+/// Lists of up to sixteen places in parallel: `sum` gives the seconds of tiles that lie near one another, of which it is told which is the first.
 pub(crate) fn by_tiles(
     lists: &[&[Point3]],
-    sum: impl Fn(&[Tile], &mut Room) -> Sums + Sync,
+    sum: impl Fn(usize, &[Tile], &mut Room) -> Sums + Sync,
 ) -> Vec<f64> {
     let parts: Vec<Vec<f64>> = lists
         .par_chunks(TILES)
-        .map_init(Room::new, |room, lists| {
+        .enumerate()
+        .map_init(Room::new, |room, (part, lists)| {
+            let first = part * TILES;
             let tiles: ArrayVec<Tile, TILES> = lists.iter().map(|list| Tile::new(list)).collect();
             let sums: Sums = if Tile::length(&tiles) <= NEAR {
-                sum(&tiles, room)
+                sum(first, &tiles, room)
             } else {
-                let each = tiles.chunks(1);
-                each.flat_map(|tile| sum(tile, room)).collect()
+                let each = tiles.chunks(1).enumerate();
+                each.flat_map(|(k, tile)| sum(first + k, tile, room))
+                    .collect()
             };
             let mut all = Vec::with_capacity(TILES * PLACES);
             for (places, sums) in lists.iter().zip(sums) {

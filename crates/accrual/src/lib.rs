@@ -7,6 +7,7 @@
 mod again;
 mod cover;
 mod coverage;
+mod dark;
 mod exact;
 mod fast;
 mod ground;
@@ -22,6 +23,7 @@ mod ways;
 
 pub use again::Again;
 pub use coverage::{Coverage, Peak, new_shadow, shadow};
+pub use dark::Dark;
 pub use exact::Exact;
 pub use fast::{Difference, Fast};
 pub use ground::Ground;

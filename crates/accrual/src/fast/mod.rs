@@ -101,7 +101,7 @@ impl<'a> Fast<'a> {
     }
 
     fn each(&self, lists: &[&[Point3]]) -> Vec<f64> {
-        by_tiles(lists, |tiles, room| {
+        by_tiles(lists, |_, tiles, room| {
             let Some(first) = self.steps.first() else {
                 self.count(tiles);
                 return self.every.sums(tiles, room);

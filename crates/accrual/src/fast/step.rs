@@ -45,7 +45,7 @@ impl<'a> Step<'a> {
         mut show: impl FnMut(usize, Option<[f64; PLACES]>),
     ) {
         let mut by_day = vec![[0.0; PLACES]; self.len() * tiles.len()];
-        self.exact.by_way(tiles, room, |tile, sheet, seconds| {
+        self.exact.by_way(tiles, room, |tile, sheet, seconds, _| {
             let sums = &mut by_day[tile * self.len() + self.day_of[sheet]];
             for (sum, seconds) in sums.iter_mut().zip(seconds) {
                 *sum += seconds;

@@ -29,6 +29,11 @@ impl Room {
             waiting: Vec::new(),
         }
     }
+
+    /// Which arcs were covered wholly for all places, after [`add_seconds`]: of the ways of each tile, one tile after another.
+    pub(crate) fn full(&self, index: usize) -> u64 {
+        self.covers[index].full
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -68,9 +73,14 @@ mod x86 {
     /// # Safety
     /// - The processor has AVX2.
     #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn changes(job: Job<'_>, room: &mut Room) -> u32 {
+    pub(super) unsafe fn changes(
+        job: Job<'_>,
+        gone: &Occluders,
+        dark: &[u64],
+        room: &mut Room,
+    ) -> u32 {
         // SAFETY: the caller's promise.
-        unsafe { differs::<Avx2, Pair<Avx2>>(job, &mut room.covers, &mut room.waiting) }
+        unsafe { differs::<Avx2, Pair<Avx2>>(job, gone, dark, &mut room.covers, &mut room.waiting) }
     }
 
     /// # Safety
@@ -142,15 +152,22 @@ pub(crate) fn may_cover(
     }
 }
 
-/// For which tiles of a job, by bits, `more` covers anything that its occluders do not cover anyway.
-pub(crate) fn changes(level: Level, job: Job<'_>, room: &mut Room) -> u32 {
+/// For which tiles of a job, by bits, `more` covers anything that its occluders do not cover anyway. See [`differs`].
+pub(crate) fn changes(
+    level: Level,
+    job: Job<'_>,
+    gone: &Occluders,
+    dark: &[u64],
+    room: &mut Room,
+) -> u32 {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Level::Avx2 | Level::Avx512 => unsafe { x86::changes(job, room) },
+        Level::Avx2 | Level::Avx512 => unsafe { x86::changes(job, gone, dark, room) },
         // SAFETY: every processor has these.
         _ => unsafe {
-            differs::<Portable, Pair<Portable>>(job, &mut room.covers, &mut room.waiting)
+            let (covers, waiting) = (&mut room.covers, &mut room.waiting);
+            differs::<Portable, Pair<Portable>>(job, gone, dark, covers, waiting)
         },
     }
 }

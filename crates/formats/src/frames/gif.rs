@@ -1,5 +1,6 @@
 //! An animated GIF.
 
+use std::collections::HashMap;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
@@ -37,13 +38,17 @@ impl Gif {
         })
     }
 
-    pub(super) fn add(&mut self, picture: &ImageBuffer) -> Result<(), FormatError> {
-        self.add_frame(picture)
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn add(&mut self, frame: &Frame<'_>) -> Result<(), FormatError> {
+        self.add_frame(frame)
             .map_err(|error| error.in_file(&self.path))
     }
 
-    fn add_frame(&mut self, picture: &ImageBuffer) -> Result<(), FormatError> {
-        let [width, height] = size(picture)?;
+    fn add_frame(&mut self, frame: &Frame<'_>) -> Result<(), FormatError> {
+        let (width, height) = (frame.width, frame.height);
         let (mut encoder, own) = match std::mem::replace(&mut self.state, State::Broken) {
             State::Empty(file) => {
                 let file = BufWriter::with_capacity(1 << 20, file);
@@ -61,9 +66,7 @@ impl Gif {
             );
             return Err(FormatError::file(Fault::Description(text)));
         }
-        let mut frame = Frame::from_rgb_speed(width, height, &picture.screen_bytes(), SPEED);
-        frame.delay = DELAY;
-        encoder.write_frame(&frame).map_err(fault)?;
+        encoder.write_lzw_pre_encoded_frame(frame).map_err(fault)?;
         self.state = State::Open(encoder, own);
         Ok(())
     }
@@ -92,6 +95,47 @@ impl std::fmt::Debug for Gif {
             .field("path", &self.path)
             .finish_non_exhaustive()
     }
+}
+
+/// A picture, packed: what takes most of the time, and what many threads may do at once.
+pub(super) fn pack(picture: &ImageBuffer) -> Result<Frame<'static>, FormatError> {
+    let [width, height] = size(picture)?;
+    let bytes = picture.screen_bytes();
+    let mut frame = match indexed(&bytes) {
+        Some((pixels, palette)) => Frame::from_palette_pixels(width, height, pixels, palette, None),
+        None => Frame::from_rgb_speed(width, height, &bytes, SPEED),
+    };
+    frame.delay = DELAY;
+    frame.make_lzw_pre_encoded();
+    Ok(frame)
+}
+
+/// Which colour each pixel has, and the colours, as they come; none if there are more than 256.
+fn indexed(bytes: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
+    let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
+    let mut palette: Vec<u8> = Vec::new();
+    // Maps are of large areas of one colour.
+    let mut last = ([0; 3], None);
+    let pixels = bytes.as_chunks().0.iter().map(|&colour| {
+        if let (own, Some(number)) = last
+            && own == colour
+        {
+            return Some(number);
+        }
+        let number = match numbers.get(&colour) {
+            Some(&number) => number,
+            None => {
+                let number = u8::try_from(numbers.len()).ok()?;
+                numbers.insert(colour, number);
+                palette.extend(colour);
+                number
+            }
+        };
+        last = (colour, Some(number));
+        Some(number)
+    });
+    let pixels: Option<Vec<u8>> = pixels.collect();
+    Some((pixels?, palette))
 }
 
 fn size(picture: &ImageBuffer) -> Result<[u16; 2], FormatError> {

@@ -17,6 +17,16 @@ use gif::Gif;
 #[derive(Debug)]
 pub struct FrameWriter(Kind);
 
+/// A picture as it is added.
+#[derive(Debug)]
+pub struct Packed(PackedKind);
+
+#[derive(Debug)]
+enum PackedKind {
+    Gif(::gif::Frame<'static>),
+    Picture(ImageBuffer),
+}
+
 #[derive(Debug)]
 enum Kind {
     Gif(Box<Gif>),
@@ -40,14 +50,31 @@ impl FrameWriter {
         }))
     }
 
-    /// Adds a picture; all are of one size. `name` says what it shows.
+    /// Packs a picture, for [`add`](Self::add): that takes most of the time, and many threads may do it at once.
+    ///
+    /// # Errors
+    /// When it is too large for an animation.
+    pub fn pack(&self, picture: ImageBuffer) -> Result<Packed, FormatError> {
+        Ok(Packed(match &self.0 {
+            Kind::Gif(file) => {
+                PackedKind::Gif(gif::pack(&picture).map_err(|error| error.in_file(file.path()))?)
+            }
+            Kind::Folder(_) => PackedKind::Picture(picture),
+        }))
+    }
+
+    /// Adds a picture that it packed; all are of one size. `name` says what it shows.
     ///
     /// # Errors
     /// When it has another size, or cannot be written.
-    pub fn add(&mut self, picture: &ImageBuffer, name: &str) -> Result<(), FormatError> {
-        match &mut self.0 {
-            Kind::Gif(file) => file.add(picture),
-            Kind::Folder(folder) => folder.add(picture, name),
+    ///
+    /// # Panics
+    /// If another one packed it, for a place of another kind.
+    pub fn add(&mut self, picture: &Packed, name: &str) -> Result<(), FormatError> {
+        match (&mut self.0, &picture.0) {
+            (Kind::Gif(file), PackedKind::Gif(frame)) => file.add(frame),
+            (Kind::Folder(folder), PackedKind::Picture(picture)) => folder.add(picture, name),
+            _ => panic!("a picture is packed for the place that it is added to"),
         }
     }
 

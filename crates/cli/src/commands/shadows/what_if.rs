@@ -4,11 +4,12 @@ mod edits;
 mod told;
 mod written;
 
+use std::ops::Range;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use ombra::accrual::{Again, Exact, Occluders, Tiles};
+use ombra::accrual::{Again, Dark, Exact, Occluders, Tiles};
 use ombra::city::{Change, City, Edited, Extent};
 use ombra::pipeline::Cpu;
 use ombra::sun::{Place, Sheet};
@@ -157,7 +158,13 @@ impl Job<'_> {
         let begun = Instant::now();
         let occluders = cpu.install(|| Occluders::new(&before.facets()));
         let exact = cpu.install(|| Exact::new(&occluders, &self.sheets));
-        let Some(measured) = self.minutes(&exact, &places.tiles) else {
+        let tiles = &places.tiles;
+        let dark = Dark::new(tiles.len(), self.sheets.len());
+        let part = |which| match &dark {
+            Some(dark) => exact.seconds_and_dark(tiles, which, dark),
+            None => exact.seconds_of(tiles, which),
+        };
+        let Some(measured) = self.minutes(tiles, part) else {
             return Ok(None);
         };
         let full_seconds = begun.elapsed().as_secs_f64();
@@ -166,7 +173,16 @@ impl Job<'_> {
         let begun = Instant::now();
         let change = cpu.install(|| Change::between(before, after));
         let again = |tiles: &Tiles, fresh| {
-            cpu.install(|| Again::new(&occluders, &change, &self.sheets, tiles, fresh))
+            cpu.install(|| {
+                Again::new(
+                    &occluders,
+                    &change,
+                    &self.sheets,
+                    tiles,
+                    dark.as_ref(),
+                    fresh,
+                )
+            })
         };
         let (again, places) = match &places.kind {
             Kind::Points { outside, .. } => {
@@ -185,7 +201,8 @@ impl Job<'_> {
             Kind::Faces { .. } => unreachable!("refused before anything was read"),
         };
         let exact = cpu.install(|| again.exact(&self.sheets));
-        let Some(measured) = self.minutes(&exact, again.tiles()) else {
+        let part = |which| exact.seconds_of(again.tiles(), which);
+        let Some(measured) = self.minutes(again.tiles(), part) else {
             return Ok(None);
         };
         let after = again.after(&minutes, &measured, f32::NAN);
@@ -208,8 +225,12 @@ impl Job<'_> {
     }
 
     /// Of all places of some tiles; `None` if it was interrupted.
-    fn minutes(&self, exact: &Exact<'_>, tiles: &Tiles) -> Option<Vec<f32>> {
-        let part = |which| self.cpu.install(|| exact.seconds_of(tiles, which));
+    fn minutes(
+        &self,
+        tiles: &Tiles,
+        part: impl Fn(Range<usize>) -> Vec<f64> + Sync,
+    ) -> Option<Vec<f32>> {
+        let part = |which| self.cpu.install(|| part(which));
         let measured = in_parts(self.args, self.when, tiles, 0.0, self.stop, &mut None, part);
         (measured.done == measured.minutes.len()).then_some(measured.minutes)
     }

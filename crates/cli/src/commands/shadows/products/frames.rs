@@ -80,8 +80,8 @@ pub(super) fn write(job: &Job<'_>, path: &Path, grid: &Grid) -> anyhow::Result<b
     for part in all.chunks(PICTURES) {
         let pictures = job.session.cpu.install(|| {
             part.par_iter()
-                .map(|&one| draw(one))
-                .collect::<Result<Vec<_>, _>>()
+                .map(|&one| Ok(file.pack(draw(one)?)?))
+                .collect::<anyhow::Result<Vec<_>>>()
         })?;
         for (picture, (index, moment)) in pictures.iter().zip(part) {
             file.add(picture, &moment.clock)?;

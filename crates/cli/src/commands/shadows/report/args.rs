@@ -26,7 +26,7 @@ pub(crate) struct ReportArgs {
     #[arg(long, value_name = "METRES", requires = "report", value_parser = metres)]
     pub(crate) plane: Option<f64>,
 
-    /// With --report japan: hours of shadow that are allowed beyond 5 m and beyond 10 m of the site [default: 4h,2.5h]
+    /// With --report japan: hours of shadow that are allowed beyond 5 m and beyond 10 m of the site [default: 4h,2.5h; with --hokkaido 3h,2h]
     #[arg(long, value_name = "H,H", requires = "report", value_parser = limits)]
     pub(crate) limits: Option<[f64; 2]>,
 

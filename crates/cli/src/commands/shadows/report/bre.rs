@@ -12,7 +12,7 @@ use super::study::Study;
 /// The day of both, unless another one is asked for: the equinox of spring, as the guide has it.
 const DAY: &str = "03-21";
 
-/// The sun counts from this altitude on, in degrees, unless another one is asked for.
+/// The sun counts from this altitude on, in degrees, unless another one is asked for: a convention of ours.
 const ALTITUDE: f64 = 10.0;
 
 pub(super) fn when(args: &ShadowsArgs, calendar: &Calendar) -> WhenArgs {
@@ -40,8 +40,8 @@ fn altitude(study: &Study<'_>) -> String {
             "The sun counts while it stands at least {asked}° high, as was asked for (--min-altitude)."
         ),
         None => format!(
-            "The sun counts while it stands at least {ALTITUDE}° high: lower sun is blocked by what is in no file. --min-altitude says \
-             otherwise; 0 counts all of it."
+            "The sun counts while it stands at least {ALTITUDE}° high, a convention here: lower sun is blocked by what is in no file. \
+             --min-altitude says otherwise; 0 counts all of it."
         ),
     }
 }

@@ -15,7 +15,7 @@ use super::study::{Progress, Study};
 /// Seconds after sunrise and before sunset.
 const MARGIN: f64 = 5400.0;
 
-/// The days that stand for the year: the winter solstice, the equinox, midway to it and the summer solstice.
+/// The days that stand for the year: the equinox, midway from it to the summer solstice, that, and the winter solstice.
 const DAYS: [&str; 4] = ["03-21", "05-06", "06-21", "12-21"];
 
 /// Shadow that is gone from all places for no longer than this, in seconds, has not left: between two places of the grid a narrow one
@@ -293,20 +293,25 @@ fn rule() -> RuleText {
     RuleText {
         title: "Incremental shadow (New York, CEQR)",
         sources: &[
-            "City Environmental Quality Review Technical Manual, Mayor's Office of Environmental Coordination, City of New York; 2021 edition (first so in that of 2010), chapter 8, Shadows",
+            "City Environmental Quality Review (CEQR) Technical Manual, Mayor's Office of Environmental Coordination, City of New York, \
+             chapter 8, Shadows: days, hours and standard time as in studies by its editions since 2010 (the latest known here: December 2025)",
         ],
         conventions: vec![
             "Incremental shadow is shadow that lies on a place with the change and does not without it.".to_owned(),
-            "From an hour and a half after sunrise to an hour and a half before sunset. Sunrise and sunset are those of almanacs: the upper edge of the sun, with 34' of refraction, on a level horizon."
+            "From an hour and a half after sunrise to an hour and a half before sunset. Sunrise and sunset are those of almanacs for this place and day, \
+             a convention here: the upper edge of the sun, with 34' of refraction, on a level horizon. Studies with fixed hours for a day may \
+             begin and end some minutes earlier or later."
                 .to_owned(),
             "Standard time all year: the manual does not use daylight saving time.".to_owned(),
-            "March 21 stands for September 21 as well, May 6 for August 6.".to_owned(),
+            "The sun goes nearly the same way on September 21 as on March 21, and on August 6 as on May 6: these days stand for those, too."
+                .to_owned(),
             format!(
                 "Times and durations are of any incremental shadow on the resource, however small; gaps of up to {GAP:.0} s are bridged."
             ),
             "Shares are of the area of the resource without what buildings stand on.".to_owned(),
-            "\"All sun gone because of it\" is how long no place of the resource has sun, where without the change one would: more than 10 \
-             minutes of that is what the manual looks at first. Whether an impact is significant is for people to judge."
+            "\"All sun gone because of it\" is how long no place of the resource has sun, where without the change one would. The edition of \
+             2010 takes more than 10 minutes of that for significant in general; how the resource is used, the time of year and what is \
+             sunlit near by count as well. Whether an impact is significant is for people to judge."
                 .to_owned(),
         ],
     }

@@ -9,6 +9,7 @@ use anyhow::bail;
 use ombra::sun::{Calendar, Season, Window};
 
 use super::super::args::{Said, ShadowsArgs, WhenArgs};
+use super::args::ReportArgs;
 use super::clock::{Clock, length};
 use super::frame::{Cell, Column, Fact, Figure, Report, RuleText, Table};
 use super::map::Cells;
@@ -20,8 +21,15 @@ use zones::Zone;
 /// Metres above the average ground, unless others are asked for.
 const PLANE: f64 = 4.0;
 
-/// Seconds of shadow that are too much beyond 5 m and beyond 10 m of the site, unless others are asked for.
-const LIMITS: [f64; 2] = [4.0 * 3600.0, 2.5 * 3600.0];
+/// Seconds of shadow that are too much beyond 5 m and beyond 10 m of the site: those asked for, else number (2) of table 4.
+fn limits(asked: &ReportArgs) -> [f64; 2] {
+    let usual = if asked.hokkaido {
+        [3.0, 2.0]
+    } else {
+        [4.0, 2.5]
+    };
+    asked.limits.unwrap_or(usual.map(|hours| hours * 3600.0))
+}
 
 /// The winter solstice, by true solar time.
 pub(super) fn when(args: &ShadowsArgs, calendar: &Calendar) -> anyhow::Result<WhenArgs> {
@@ -61,7 +69,7 @@ pub(super) fn check(areas: &[Area], path: &Path) -> anyhow::Result<()> {
 /// `None` if it was interrupted.
 pub(super) fn report(study: &Study<'_>) -> Option<Report> {
     let asked = &study.args.report;
-    let (plane, limits) = (asked.plane.unwrap_or(PLANE), asked.limits.unwrap_or(LIMITS));
+    let (plane, limits) = (asked.plane.unwrap_or(PLANE), limits(asked));
     let clock = Clock::civil(study.when.time_zone.clone());
     let found = Found::measure(study, plane)?;
     let mut rows = Vec::new();
@@ -203,20 +211,44 @@ fn rule(study: &Study<'_>) -> RuleText {
         title: "Hours of shadow around a site (Japan, 日影規制)",
         sources: &[
             "建築基準法 (Building Standards Act, Act 201 of 1950), article 56-2 and appended table 4",
-            "建築基準法施行令 (its Enforcement Order), articles 135-12 and 135-13",
+            "建築基準法施行令 (its Enforcement Order, Cabinet Order 338 of 1950), articles 135-12 and 135-13",
         ],
         conventions: vec![
             format!("At the winter solstice, from {hours} by true solar time: the sun is due south at 12."),
-            "Of the proposed buildings alone (--with): existing ones, terrain and trees throw no shadow.".to_owned(),
+            "Of the proposed buildings alone (--with): existing ones, terrain and trees throw no shadow. All buildings of a site count as one: \
+             those that stay on it belong in --with, too."
+                .to_owned(),
             "On a level plane above the average ground around the proposed buildings. What plane (1.5, 4 or 6.5 m), which limits and whether there \
-             are any, an ordinance says for each zone: --plane and --limits."
+             are any, table 4 and an ordinance say for each zone: --plane and --limits. The limits of the table are 3 and 2 h, 4 and 2.5 h, 5 and \
+             3 h; in Hokkaido 2 and 1.5 h, 3 and 2 h, 4 and 2.5 h."
                 .to_owned(),
             "Fail is shadow for as long as the limit or longer, at any place farther than 5 m and up to 10 m from the boundary of the site, and at any \
              place farther than 10 m; also on these lines themselves, every half of a cell."
                 .to_owned(),
-            "Distances are level ones, with round corners. A road or water beside the site, which moves its boundary, ground of neighbours that is 1 m \
-             higher, and zones with other limits are not looked at: draw the site so that they are."
+            "Distances are level ones, with round corners. A road, water or railway beside the site moves its boundary outward: draw the site so \
+             that it does. Not looked at are ground of neighbours that is 1 m higher or more, zones with other limits or none, and whether the building \
+             is one of those that the article holds for."
                 .to_owned(),
         ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_those_asked_for_or_of_the_table() {
+        let asked = |limits, hokkaido| ReportArgs {
+            report: None,
+            resources: None,
+            plane: None,
+            limits,
+            hokkaido,
+        };
+        assert_eq!(limits(&asked(None, false)), [14_400.0, 9000.0]);
+        assert_eq!(limits(&asked(None, true)), [10_800.0, 7200.0]);
+        let other = [18_000.0, 10_800.0];
+        assert_eq!(limits(&asked(Some(other), true)), other);
     }
 }

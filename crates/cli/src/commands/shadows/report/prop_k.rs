@@ -152,14 +152,14 @@ fn rule(study: &Study<'_>) -> RuleText {
     RuleText {
         title: "Shadow of a year on parks (San Francisco, Planning Code section 295)",
         sources: &[
-            "San Francisco Planning Code, section 295 (Proposition K, 1984)",
+            "San Francisco Planning Code, section 295 (1985, after Proposition K of 1984)",
             "Proposition K, the Sunlight Ordinance: memorandum to the Planning and the Recreation and Park Commissions, 3 February \
-             1989, adopted by Planning Commission Resolution 11595",
+             1989, adopted by Planning Commission Resolution 11595 of 7 February 1989",
             "Shadow Analysis Procedures and Scope Requirements: memorandum of the San Francisco Planning Department, July 2014",
         ],
         conventions: vec![
-            "From an hour after sunrise to an hour before sunset, on every day of the year. Sunrise and sunset are those of almanacs: the \
-             upper edge of the sun, with 34' of refraction, on a level horizon."
+            "From an hour after sunrise to an hour before sunset, on every day of the year. Sunrise and sunset are those of almanacs, a \
+             convention here: the upper edge of the sun, with 34' of refraction, on a level horizon."
                 .to_owned(),
             format!(
                 "Theoretical annual available sunlight (TAAS) is the open area of the park times these hours: {:.1} in this year here.",
@@ -167,7 +167,8 @@ fn rule(study: &Study<'_>) -> RuleText {
             ),
             "Load is shadow summed over area and time, in square feet times hours; every day is measured exactly, none stands for others."
                 .to_owned(),
-            "Net new is the load with the project less the load without it, so what a building that goes has thrown counts against it."
+            "Net new is the load with the project less the load without it, so what a building that goes has thrown counts against it: a \
+             convention here."
                 .to_owned(),
             format!("A day has new shadow if some place has more than {LEAST} s more of it than without the project."),
             "Whether new shadow is significant or adverse is for the commissions to judge, by time, size, place and public good as well."

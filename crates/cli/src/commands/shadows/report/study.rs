@@ -163,7 +163,7 @@ impl<'a> Study<'a> {
         let kept = |at| resource.area.within.contains(at) && was_free(at);
         self.cpu().install(|| {
             let fresh = Tiles::on_changed_ground(self.after(), &resource.grid, change, kept);
-            Again::new(occluders, change, sheets, &resource.tiles, fresh)
+            Again::new(occluders, change, sheets, &resource.tiles, None, fresh)
         })
     }
 

@@ -145,10 +145,10 @@ fn verdict(before: Option<f64>, now: f64) -> (bool, String) {
     if now >= HALF {
         return (
             true,
-            format!("{percent:.1} % of it has 2 h of sun, half of it should (3.3.17)"),
+            format!("{percent:.1} % of it has 2 h of sun, half of it should"),
         );
     }
-    let short = format!("{percent:.1} % of it has 2 h of sun, less than half (3.3.17)");
+    let short = format!("{percent:.1} % of it has 2 h of sun, less than half");
     match before {
         None => (false, short),
         Some(before) if now < FORMER * before => {
@@ -233,7 +233,7 @@ fn rule(study: &Study<'_>) -> RuleText {
         title: "Sun in gardens and amenity areas (BRE 209)",
         sources: &[
             "Littlefair, King, Howlett, Ticleanu, Longfield: Site layout planning for daylight and sunlight, a guide to good practice, BRE \
-             report BR 209, third edition, 2022, section 3.3, paragraph 3.3.17",
+             report BR 209, third edition, 2022, section 3.3",
         ],
         conventions,
     }

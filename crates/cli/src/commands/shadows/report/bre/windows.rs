@@ -89,7 +89,7 @@ pub(super) fn report(study: &Study<'_>, points: &Places) -> Option<Report> {
     }
     if study.args.when.min_altitude.is_none() {
         findings.push(format!(
-            "EN 17037 gives a minimum altitude of the sun for each city (13° for Prague); none was named, and {} is taken (--min-altitude)",
+            "EN 17037 counts the sun from an altitude that depends on the place (11° in Germany, 13° in the Czech Republic); none was named, and {}° is taken (--min-altitude)",
             super::ALTITUDE
         ));
     }
@@ -148,16 +148,16 @@ fn rule(study: &Study<'_>) -> RuleText {
     RuleText {
         title: "Sun at windows (EN 17037, BRE 209)",
         sources: &[
-            "EN 17037:2018, Daylight in buildings, clause 5.3 and annex A, table A.6",
-            "BRE report BR 209, third edition, 2022, which takes it over for new dwellings",
+            "EN 17037:2018+A1:2021, Daylight in buildings: exposure to sunlight",
+            "BRE report BR 209, third edition, 2022, which has the minimum for new dwellings, on 21 March",
         ],
         conventions: vec![
             "On a day from 1 February to 21 March: 1.5 h of sun is the minimum, 3 h medium, 4 h high. In a dwelling one habitable room \
              should have it; which point is of which room the file says."
                 .to_owned(),
             super::altitude(study),
-            "Each point is where the file has it: on the inner face of a window, 1.2 m above the floor and 0.3 m above the sill, is what the standard \
-             asks for. Its own wall throws shadow if it stands in the city."
+            "Each point is where the file has it. What the standard asks for is the plane of the wall's inner face, the middle of the window's \
+             width, at least 1.2 m above the floor and at least 0.3 m above the sill. Its own wall throws shadow if it stands in the city."
                 .to_owned(),
         ],
     }

@@ -11,7 +11,7 @@ use super::super::super::bound::extent;
 use super::super::super::wrong_usage;
 use super::super::map::outline;
 use super::super::study::Study;
-use super::LIMITS;
+use super::limits;
 use super::zones::{Zone, along, to_sides};
 
 /// Blocks of tiles are measured at once: so many.
@@ -257,7 +257,7 @@ fn reached(study: &Study<'_>, facets: &[Facet], plane: f64) -> Extent {
 
 /// Every hour, and the limits.
 fn levels(study: &Study<'_>) -> Vec<f32> {
-    let limits = study.args.report.limits.unwrap_or(LIMITS);
+    let limits = limits(&study.args.report);
     let hours = (1..study.when.hours().round() as u32).map(f64::from);
     let mut levels: Vec<f64> = hours.chain(limits.map(|limit| limit / 3600.0)).collect();
     levels.sort_by(f64::total_cmp);
