@@ -113,17 +113,18 @@ impl<'a> Manual<'a> {
     }
 
     fn ombra(&mut self, words: &[&str]) -> Result<()> {
-        let subcommand = match words.first() {
-            Some(word) if is_subcommand(word) => *word,
-            _ => "",
+        let mut subcommand = match words.first() {
+            Some(word) if is_subcommand(word) => (*word).to_owned(),
+            _ => String::new(),
         };
-        let help = match self.help.get(subcommand) {
-            Some(help) => help,
-            None => {
-                let help = help(self.executables, subcommand)?;
-                self.help.entry(subcommand.to_owned()).or_insert(help)
-            }
-        };
+        // A command may have commands of its own.
+        if let [first, second, ..] = words
+            && subcommand == *first
+            && has_command(self.help_of(&subcommand)?, second)
+        {
+            subcommand = format!("{first} {second}");
+        }
+        let help = self.help_of(&subcommand)?;
         for word in words.iter().filter(|word| word.starts_with("--")) {
             let flag = word.split_once('=').map_or(*word, |(flag, _)| flag);
             let ends = |c: char| !(c.is_alphanumeric() || c == '-');
@@ -133,6 +134,28 @@ impl<'a> Manual<'a> {
         }
         Ok(())
     }
+
+    /// What `ombra SUBCOMMAND --help` says, asked for once.
+    fn help_of(&mut self, subcommand: &str) -> Result<&str> {
+        if !self.help.contains_key(subcommand) {
+            let help = help(self.executables, subcommand)?;
+            self.help.insert(subcommand.to_owned(), help);
+        }
+        Ok(&self.help[subcommand])
+    }
+}
+
+/// Whether a help lists a command.
+fn has_command(help: &str, command: &str) -> bool {
+    let (_, after) = help.split_once("Commands:\n").unwrap_or_default();
+    let lines = after.lines().take_while(|line| !line.is_empty());
+    let named = |line: &str| {
+        line.strip_prefix("  ")?
+            .split(' ')
+            .next()
+            .map(str::to_owned)
+    };
+    lines.filter_map(named).any(|name| name == command)
 }
 
 /// Whether a word stands for something else, as `NAME` and `<FILE>` do.
@@ -150,9 +173,8 @@ fn is_subcommand(word: &str) -> bool {
 fn help(executables: &Executables, subcommand: &str) -> Result<String> {
     let ombra = executables.binaries.get("ombra");
     let ombra = ombra.context("the workspace builds no binary \"ombra\"")?;
-    let words = [subcommand, "--help"];
     let output = Command::new(ombra)
-        .args(words.iter().filter(|word| !word.is_empty()))
+        .args(subcommand.split_whitespace().chain(["--help"]))
         .output()
         .context("cannot start ombra")?;
     if !output.status.success() {
@@ -177,12 +199,18 @@ mod tests {
     fn manual(executables: &Executables) -> Manual<'_> {
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
         let help = "Usage: ombra render [--spp <N>] [--max-depth=<N>]";
+        let nested =
+            "Commands:\n  query  Answers\n         render shadows\n\nOptions:\n  --date <DAYS>";
         Manual {
             packages: names(&["ombra-accel"]),
             binaries: names(&["ombra"]),
             examples: names(&["01_ray_triangle"]),
             executables,
-            help: BTreeMap::from([("render".to_owned(), help.to_owned())]),
+            help: BTreeMap::from([
+                ("render".to_owned(), help.to_owned()),
+                ("shadows".to_owned(), nested.to_owned()),
+                ("shadows query".to_owned(), "--building <ID>".to_owned()),
+            ]),
         }
     }
 
@@ -198,6 +226,8 @@ mod tests {
             "cargo run --release -- render --spp 4",
             "ombra render FILE.obj --max-depth=3",
             "ombra render … --whatever",
+            "ombra shadows render --date 2026",
+            "ombra shadows query a.parquet --building 1",
         ] {
             let executables = Executables::default();
             let answer = manual(&executables).check(command);
@@ -225,6 +255,14 @@ mod tests {
             (
                 "cargo run -- render --max",
                 "`ombra render --help` does not know --max",
+            ),
+            (
+                "ombra shadows query a.parquet --date 2026",
+                "`ombra shadows query --help` does not know --date",
+            ),
+            (
+                "ombra shadows a.geojson --building 1",
+                "`ombra shadows --help` does not know --building",
             ),
             (
                 "ombra frobnicate",

@@ -8,6 +8,7 @@ mod products;
 mod reports;
 mod resumed;
 mod spells;
+mod tutorial;
 mod what_if;
 
 use crate::{fail, outside_data, succeed};

@@ -90,7 +90,8 @@ pub(super) fn refuse(args: &ShadowsArgs) {
     }
     if args.what_if.is_asked() {
         wrong_usage(&format!(
-            "{option}: is of one city; leave out --with, --without and --height"
+            "{option}: is of one city, as its file has it; leave out --with, --without and --height, \
+             and for a changed city change its file"
         ));
     }
     if args.resume {

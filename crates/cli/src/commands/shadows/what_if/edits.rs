@@ -20,7 +20,7 @@ pub(crate) struct WhatIfArgs {
     #[arg(long, value_name = "ID", value_delimiter = ',')]
     pub(crate) without: Vec<String>,
 
-    /// What if a building were so tall above its ground: ID=120m; may be given several times
+    /// What if a building of the city's file were so tall above its ground: ID=120m; may be given several times
     #[arg(long, value_name = "ID=METRES", value_parser = height)]
     pub(crate) height: Vec<(String, f64)>,
 }
