@@ -77,7 +77,7 @@ fn of_city(args: &ShadowsArgs) -> anyhow::Result<ExitCode> {
         wrong_usage("--resume goes on with an output: name it, with -o or --png");
     }
     let session = Session::new(args)?;
-    if args.what_if.is_asked() {
+    if args.what_if.is_asked() && !args.spells.is_asked() {
         what_if::run(args, &session)
     } else if is_tour {
         demo::run(args, &session)
@@ -109,7 +109,11 @@ fn one(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitCode> {
     can_write(args)?;
 
     let begun = Instant::now();
-    let site = cpu.install(|| Site::read(args))?;
+    let mut site = cpu.install(|| Site::read(args))?;
+    if args.what_if.is_asked() {
+        what_if::edit(args, &mut site, cpu, &talk)?;
+        talk.say(&format!("{}: as it is after the change", args.city));
+    }
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
     let when = cpu.install(|| When::new(&args.when, args.sun, place, args.samples_step()))?;
     let all = cpu.install(|| site.extent());

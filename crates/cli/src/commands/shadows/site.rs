@@ -170,8 +170,8 @@ impl<'a> Site<'a> {
     /// The city with all that is around the places, as far as shadows reach while the sun stands at
     /// least so high, in radians; and how far that is, in metres.
     pub(super) fn city(self, places: Extent, altitude: f64) -> anyhow::Result<(City, f64)> {
-        let (city, _, reach) = self.cities(places, altitude)?;
-        Ok((city, reach))
+        let (city, edited, reach) = self.cities(places, altitude)?;
+        Ok((edited.map_or(city, |edited| edited.city), reach))
     }
 
     /// The same, and what else it might be on the same ground.

@@ -48,8 +48,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     let talk = Talk { quiet: args.quiet };
     super::can_write(args)?;
     let mut site = cpu.install(|| Site::read(args))?;
-    let edits = cpu.install(|| args.what_if.read(args, site.origin(), &talk))?;
-    cpu.install(|| site.edit(&edits))?;
+    edit(args, &mut site, cpu, &talk)?;
     let place = Place::new(site.origin().latitude(), site.origin().longitude(), 0.0)?;
     let when = cpu.install(|| When::new(&args.when, args.sun, place, None))?;
     let all = cpu.install(|| site.extent());
@@ -57,7 +56,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     let (asked, asked_after) = (ask(&talk, &site)?, ask(&Talk { quiet: true }, &site)?);
     let (extent, lowest) = (asked.extent(all), when.lowest_altitude());
     let (before, edited, _) = cpu.install(|| site.cities(extent, lowest))?;
-    let edited = edited.unwrap_or_else(|| wrong_usage(NO_BUILDINGS));
+    let edited = edited.expect("what has buildings was edited");
     let others = edited.city.findings.iter();
     let others = others.filter(|finding| !before.findings.contains(finding));
     for finding in before.findings.iter().chain(others) {
@@ -112,8 +111,21 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
     }))
 }
 
-const NO_BUILDINGS: &str =
-    "--with, --without and --height change the buildings of a city, and a surface model has none";
+/// Makes the change: the site has two cities from now on.
+pub(super) fn edit(
+    args: &ShadowsArgs,
+    site: &mut Site<'_>,
+    cpu: &Cpu,
+    talk: &Talk,
+) -> anyhow::Result<()> {
+    if site.surface().is_some() {
+        wrong_usage(
+            "--with, --without and --height change the buildings of a city, and a surface model has none",
+        );
+    }
+    let edits = cpu.install(|| args.what_if.read(args, site.origin(), talk))?;
+    cpu.install(|| site.edit(&edits))
+}
 
 /// What a change cannot be asked of.
 fn refuse(args: &ShadowsArgs) {

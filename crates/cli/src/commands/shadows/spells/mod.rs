@@ -88,12 +88,6 @@ pub(super) fn refuse(args: &ShadowsArgs) {
     if args.sun.disc {
         wrong_usage(&format!("{option}: the sun is a point; leave out --disc"));
     }
-    if args.what_if.is_asked() {
-        wrong_usage(&format!(
-            "{option}: is of one city, as its file has it; leave out --with, --without and --height, \
-             and for a changed city change its file"
-        ));
-    }
     if args.resume {
         wrong_usage(&format!(
             "{option}: an interrupted run is not gone on with; leave out --resume"
