@@ -10,6 +10,9 @@ use super::super::output::files;
 use super::super::when::When;
 use super::{Effort, Minutes};
 
+/// A change of fewer minutes is rounding: a wall that grows is cut where it was not, a millisecond beside.
+const LEAST: f32 = 1e-3;
+
 /// What `--json` prints.
 #[derive(Serialize)]
 pub(super) struct Statistics<'a> {
@@ -94,8 +97,8 @@ impl<'a> Statistics<'a> {
             before_mean: mean(sums[0]),
             after_mean: mean(sums[1]),
             net_mean: mean(sums[1] - sums[0]),
-            gain: count(&|net| net > 0.0),
-            lose: count(&|net| net < 0.0),
+            gain: count(&|net| net > LEAST),
+            lose: count(&|net| net < -LEAST),
             gain_most: f64::from(most),
             lose_most: f64::from(0.0 - least),
             built_over: turned(&minutes.before, &minutes.after),
