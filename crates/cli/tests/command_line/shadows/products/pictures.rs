@@ -178,7 +178,8 @@ fn frames_of_a_change_show_what_is_new_and_what_is_gone() {
         assert_eq!(shown.colour(cell), expected, "{cell}: {feature}");
         seen[state] += 1;
     }
-    assert!(seen.iter().all(|&count| count > 10), "{seen:?}");
+    // The pavilion is low: at noon its shadow is short.
+    assert!(seen.iter().all(|&count| count >= 5), "{seen:?}");
 }
 
 #[test]

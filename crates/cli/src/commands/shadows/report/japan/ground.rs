@@ -109,7 +109,8 @@ mod tests {
             findings: Vec::new(),
         };
         let average = average_ground(&city, slice::from_ref(&house));
-        assert!((average - 0.5).abs() < 0.01, "{average}");
+        // Places lie 2 cm above terrain. With the ridge it were 0.4.
+        assert!((average - 0.5).abs() < 0.03, "{average}");
         let rings = footprint(&house);
         assert_eq!((rings.len(), rings[0].len(), rings[0][0].len()), (1, 1, 4));
         assert_eq!(average_ground(&city, &[]), -7.0);
