@@ -23,12 +23,17 @@ pub fn shadow(stretches: &[Stretch]) -> Vec<Span> {
 pub fn new_shadow(before: &Stretches, after: &Stretches) -> Vec<Vec<Span>> {
     assert_eq!(before.len(), after.len(), "the same places");
     let pairs = before.iter().zip(after.iter());
-    let of_place = |(before, after): (&[Stretch], &[Stretch])| {
-        let mut new = Span::difference(&shadow(after), &shadow(before));
-        new.retain(|span| span.seconds() > LEAST);
-        new
-    };
+    let of_place =
+        |(before, after): (&[Stretch], &[Stretch])| gained(&shadow(before), &shadow(after));
     pairs.map(of_place).collect()
+}
+
+/// When something holds after a change that did not before, without what rounding of the ends of stretches leaves. Both are in order.
+#[must_use]
+pub fn gained(before: &[Span], after: &[Span]) -> Vec<Span> {
+    let mut new = Span::difference(after, before);
+    new.retain(|span| span.seconds() > LEAST);
+    new
 }
 
 /// How many of some places something holds for, over time.
@@ -167,6 +172,16 @@ mod tests {
         let same = [span(3.0, 7.0)];
         let coverage = Coverage::of([&same[..]; 5]);
         assert_eq!(coverage.parts().collect::<Vec<_>>(), [(same[0], 5)]);
+    }
+
+    #[test]
+    fn what_rounding_leaves_is_not_gained() {
+        let before = [span(10.0, 20.0), span(30.0, 40.0)];
+        let after = [span(9.95, 20.05), span(28.0, 40.09), span(50.0, 50.09)];
+        assert_eq!(gained(&before, &after), [span(28.0, 30.0)]);
+        assert!(gained(&before, &before).is_empty());
+        assert!(gained(&before, &[]).is_empty());
+        assert_eq!(gained(&[], &before), before);
     }
 
     #[test]

@@ -22,7 +22,7 @@ mod way;
 mod ways;
 
 pub use again::Again;
-pub use coverage::{Coverage, Peak, new_shadow, shadow};
+pub use coverage::{Coverage, Peak, gained, new_shadow, shadow};
 pub use dark::Dark;
 pub use exact::Exact;
 pub use fast::{Difference, Fast};

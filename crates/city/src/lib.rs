@@ -54,6 +54,7 @@ mod repair;
 mod stand;
 mod surface_model;
 mod triangulate;
+mod united;
 
 pub use around::line_around;
 pub use building::{Building, Face, Faces, Part, Prism, Surface};
@@ -75,3 +76,4 @@ pub use receiver::{
     FaceChart, FaceKind, FacePlace, Grid, GridError, MAX_CELLS, MAX_PLACES, STAND_OFF, StudyArea,
     StudyError,
 };
+pub use united::{area_of, united};

@@ -31,6 +31,8 @@ pub(crate) struct Kind {
 impl WholeFolder {
     /// Beside `path`, where there is nothing, an empty folder, or one of this kind that ombra has written.
     pub(crate) fn create(path: &Path, kind: Kind) -> Result<Self, FormatError> {
+        // Without a dot or a slash at its end, which say where the folder is and not what it is called.
+        let path: &Path = &path.components().collect::<PathBuf>();
         can_replace(path, kind).map_err(|error| error.in_file(path))?;
         let folder = parent(path);
         if !folder.is_dir() {
@@ -84,8 +86,16 @@ fn parent(path: &Path) -> &Path {
     }
 }
 
-/// Whether nothing of others' is lost.
+/// Whether there is a name to take, and nothing of others' is lost.
 fn can_replace(path: &Path, kind: Kind) -> Result<(), FormatError> {
+    if path.file_name().is_none() {
+        // Such as `.`: what is there could not give way.
+        let text = format!(
+            "a folder of {} has a name of its own: name one, such as ./{}",
+            kind.what, kind.what
+        );
+        return Err(FormatError::file(Fault::Description(text)));
+    }
     let entries = match fs::read_dir(path) {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -174,5 +184,12 @@ mod tests {
             .to_string();
         assert!(error.contains("does not exist"), "{error}");
         assert_eq!(names(base.path()), ["file", "other", "out"]);
+
+        fill(&base.path().join("dots/."), "1").unwrap();
+        assert_eq!(names(&base.path().join("dots")), ["1", "numbers.json"]);
+        for path in [".", "..", "/", ""] {
+            let error = fill(Path::new(path), "1").unwrap_err().to_string();
+            assert!(error.contains("name one, such as ./numbers"), "{error}");
+        }
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn run(args: &ShadowsArgs, session: &Session) -> anyhow::Result<ExitC
         talk.say(&format!("{}: {finding}", args.city));
     }
     let places = cpu.install(|| Places::new(&args.places, asked, &before, all, &talk))?;
-    products::check(args, &before.origin, &places, &when)?;
+    products::check(args, &before, &places, &when)?;
     talk.say(&format!(
         "{}: {} buildings before, {} after; {}; {} day{}, {:.1} h of sun ({})",
         args.city,

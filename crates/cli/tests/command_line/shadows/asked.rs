@@ -113,3 +113,34 @@ fn a_margin_shows_the_shadow_of_what_stands_at_the_edge() {
     );
     assert!(folder.path().join("map.png").exists());
 }
+
+/// Even those that need another option, which a report does not go with either.
+#[test]
+fn a_report_goes_with_no_option_of_other_outputs() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("house.geojson"), HOUSE).unwrap();
+    let report = [
+        "shadows",
+        "demo",
+        "--report",
+        "bre",
+        "--resources",
+        "house.geojson",
+    ];
+    for more in [
+        &["--spells", "a.parquet"][..],
+        &["--attribute"],
+        &["--by-building", "a.csv"],
+        &["--levels", "60"],
+        &["--every", "10min"],
+        &["--max-zoom", "17"],
+        &["--contours", "a.geojson"],
+        &["--tiles", "a"],
+        &["--frames", "a.gif"],
+        &["--glb", "a.glb"],
+    ] {
+        let said = fail(folder.path(), &[&report, more].concat(), 2);
+        let is_told = said.contains("cannot be used with") && said.contains(more[0]);
+        assert!(is_told, "{more:?}: {said}");
+    }
+}

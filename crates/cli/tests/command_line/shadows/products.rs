@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use ombra::formats::read_image;
 use serde_json::Value;
 
-use crate::{fail, run, succeed};
+mod pictures;
+
+use crate::{fail, succeed};
 
 const CITY: [&str; 6] = ["shadows", "demo", "--date", "2026-12-21", "--cell", "4"];
 
@@ -113,103 +114,6 @@ fn tiles_hold_the_minutes_where_published_data_have_them() {
     assert!(error.contains("mine.txt"), "{error}");
 }
 
-/// Each cell of a frame is held against rays in the minutes before and after it, where these are of one mind.
-#[test]
-fn frames_agree_with_rays() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    shadows(
-        folder,
-        &["--frames", "day", "--every", "2h", "--hours", "09:30-16:00"],
-    );
-    let frames = read(folder, "day/frames.json");
-    let shown: Vec<_> = frames["frames"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|frame| &frame["shows"])
-        .collect();
-    assert_eq!(shown, ["10:00", "12:00", "14:00", "16:00"]);
-    for (index, hours) in ["09:59-10:01", "11:59-12:01", "13:59-14:01"]
-        .iter()
-        .enumerate()
-    {
-        let rays = [
-            "--hours",
-            hours,
-            "--method",
-            "sampled",
-            "--step",
-            "20s",
-            "-o",
-            "rays.geojson",
-        ];
-        shadows(folder, &rays);
-        let cells = cells(folder, "rays.geojson");
-        let width = cells
-            .iter()
-            .take_while(|(at, _)| (at[1] - cells[0].0[1]).abs() < 2e-5)
-            .count();
-        let path = folder.join(format!("day/{index:04}.png"));
-        let picture = read_image(path, &ombra::formats::Limits::default()).unwrap();
-        let pixel = |x: usize, y: usize| {
-            let pixel = picture.pixels()[y * picture.width() as usize + x];
-            pixel.to_srgb().map(|v| (v * 255.0).round() as u8)
-        };
-        // The frame of the map stands alone at the left; cells are enlarged by a whole number.
-        let top = (0..).find(|&y| pixel(39, y) == [34, 33, 38]).unwrap() + 1;
-        let zoom = 820_usize.div_ceil(width);
-        let (mut dark, mut wrong) = (0, 0);
-        for (cell, (_, minutes)) in cells.iter().enumerate() {
-            let (column, row) = (cell % width, cell / width);
-            let colour = pixel(40 + column * zoom + zoom / 2, top + row * zoom + zoom / 2);
-            let expected = match minutes {
-                None => [186, 179, 170],
-                Some(minutes) if *minutes > 1.99 => [98, 98, 120],
-                Some(minutes) if *minutes < 0.01 => [250, 244, 219],
-                Some(_) => continue,
-            };
-            dark += usize::from(colour == [98, 98, 120]);
-            wrong += usize::from(colour != expected);
-        }
-        assert!(dark > 500, "{dark} at {hours}");
-        assert_eq!(wrong, 0, "of {} at {hours}", cells.len());
-    }
-    let gif = [
-        "--frames",
-        "day.gif",
-        "--every",
-        "3h",
-        "--without",
-        "pavilion",
-    ];
-    shadows(folder, &gif);
-    assert!(
-        std::fs::read(folder.join("day.gif"))
-            .unwrap()
-            .starts_with(b"GIF89a")
-    );
-}
-
-#[test]
-fn a_model_is_one_that_ombra_reads_and_the_same_for_any_number_of_threads() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    for on in ["ground", "roofs", "facades"] {
-        let bytes = ["1", "2"].map(|threads| {
-            shadows(
-                folder,
-                &["--on", on, "--glb", "city.glb", "--threads", threads],
-            );
-            std::fs::read(folder.join("city.glb")).unwrap()
-        });
-        assert!(bytes[0] == bytes[1], "{on}");
-        let told: Value =
-            serde_json::from_str(&succeed(folder, &["info", "city.glb", "--json"])).unwrap();
-        assert!(told.to_string().contains("minutes on"), "{told}");
-    }
-}
-
 #[test]
 fn products_of_a_change_are_of_its_net_or_of_all_three() {
     let folder = tempfile::tempdir().unwrap();
@@ -272,11 +176,46 @@ fn what_there_is_none_of_is_refused() {
     assert!(error.contains("one day"), "{error}");
     let missing = [&CITY[..], &["--tiles", "no/such"]].concat();
     assert!(fail(folder, &missing, 1).contains("does not exist"));
-    let output = run(folder, &[&CITY[..], &["--frames", "."]].concat());
-    assert!(!output.status.success());
+    for folders in ["--frames", "--tiles"] {
+        // At once, with nothing measured: one line is all that is said.
+        let error = fail(folder, &[&CITY[..], &[folders, "."]].concat(), 1);
+        assert!(error.contains("name one, such as ./"), "{error}");
+    }
     assert_eq!(
         std::fs::read_dir(folder).unwrap().count(),
         0,
         "nothing is left behind"
     );
+}
+
+/// A roof that is 90 m long and 0.3 m wide.
+#[test]
+fn a_face_that_no_texture_holds_is_refused_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let [west, south, east, north] = [13.4, 52.5, 13.401_326, 52.500_002_7];
+    let ring = [
+        [west, south],
+        [east, south],
+        [east, north],
+        [west, north],
+        [west, south],
+    ];
+    let wall = serde_json::json!({"type": "Feature", "properties": {"height": 3},
+        "geometry": {"type": "Polygon", "coordinates": [ring]}});
+    std::fs::write(folder.join("wall.geojson"), wall.to_string()).unwrap();
+    let roof = [
+        "shadows",
+        "wall.geojson",
+        "--date",
+        "2026-12-21",
+        "--on",
+        "roofs",
+        "--cell",
+    ];
+    let outputs = ["-o", "a.geojson", "--glb", "a.glb"];
+    let error = fail(folder, &[&roof[..], &["0.01"], &outputs].concat(), 2);
+    assert!(error.contains("more than a texture has (8192)"), "{error}");
+    assert!(!folder.join("a.geojson").exists() && !folder.join("a.glb").exists());
+    succeed(folder, &[&roof[..], &["0.1"], &outputs].concat());
 }

@@ -96,10 +96,16 @@ impl TileSet {
         (to[0] - from[0] + 1) as u64 * (to[1] - from[1] + 1) as u64
     }
 
-    /// The first and the last column and row.
+    /// The first and the last column and row, none of them twice: columns may go on beyond the antimeridian, once around at most.
     fn range(&self, zoom: u8) -> [[i64; 2]; 2] {
-        let count = f64::from(1_u32 << zoom);
-        (self.bounds).map(|corner| corner.map(|share| (share * count).floor() as i64))
+        let count = 1_i64 << zoom;
+        let at = |share: f64| (share * count as f64).floor() as i64;
+        let [from, to] = self.bounds.map(|corner| corner.map(at));
+        let row = |row: i64| row.clamp(0, count - 1);
+        [
+            [from[0], row(from[1])],
+            [to[0].min(from[0] + count - 1), row(to[1])],
+        ]
     }
 
     fn tiles(&self, zoom: u8) -> Vec<Tile> {
@@ -107,7 +113,7 @@ impl TileSet {
         let columns = from[0]..=to[0];
         let count = 1_i64 << zoom;
         columns
-            .flat_map(|x| (from[1]..=to[1]).map(move |y| [x.rem_euclid(count), y.min(count - 1)]))
+            .flat_map(|x| (from[1]..=to[1]).map(move |y| [x.rem_euclid(count), y]))
             .map(|at| Tile {
                 zoom,
                 at: at.map(|k| k as u32),

@@ -175,3 +175,29 @@ fn zooms_follow_the_cells_and_there_are_not_too_many_tiles() {
     let columns: Vec<u32> = set.tiles(17).iter().map(|tile| tile.at[0]).collect();
     assert!(columns.contains(&0) && columns.contains(&((1 << 17) - 1)));
 }
+
+#[test]
+fn no_tile_is_there_twice_at_an_end_of_the_map() {
+    for (bounds, expected) in [
+        // Across the antimeridian, where the only tile of zoom 0 is east and west of it.
+        ([[0.999, 0.5], [1.001, 0.5001]], [1, 2, 2]),
+        // Down to the southern end, and a little beyond it.
+        ([[0.3, 0.9], [0.3, 1.0]], [1, 1, 1]),
+        ([[0.3, -1e-9], [0.3, 0.1]], [1, 1, 1]),
+        // All around.
+        ([[0.25, 0.3], [1.25, 0.3]], [1, 2, 4]),
+    ] {
+        let set = TileSet {
+            bounds,
+            zooms: [0, 2],
+        };
+        for (zoom, count) in (0..).zip(expected) {
+            let tiles = set.tiles(zoom);
+            let own: std::collections::HashSet<[u32; 2]> =
+                tiles.iter().map(|tile| tile.at).collect();
+            assert_eq!(own.len(), count, "{bounds:?} at {zoom}");
+            assert_eq!((tiles.len(), set.count_at(zoom)), (count, count as u64));
+            assert!(own.iter().flatten().all(|&k| k < 1 << zoom));
+        }
+    }
+}

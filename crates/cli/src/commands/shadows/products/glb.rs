@@ -5,18 +5,33 @@ mod plain;
 
 use std::path::Path;
 
-use ombra::city::{Extent, FaceChart, Grid};
+use ombra::city::{City, Extent, FaceChart, Grid};
 use ombra::formats::raster::Shades;
 use ombra::formats::{GlbMaterial, GlbMesh, GlbModel, GlbTexture};
 use ombra::geometry::Point3;
 
-use super::super::places::Kind;
-use super::Job;
+use super::super::places::{Kind, Places};
 use super::atlas::MOST;
+use super::{Job, wrong_usage};
 
 /// What has no minutes, and what lies outside of what was measured (sRGB), as on a map.
 const NO_MINUTES: [u8; 3] = [186, 179, 170];
 const OUTSIDE: [u8; 3] = [240, 237, 232];
+
+/// Whether each face has a place on a texture.
+pub(super) fn check(city: &City, places: &Places, cell: f64) {
+    let Kind::Faces { kind, found } = &places.kind else {
+        return;
+    };
+    let charts: Vec<FaceChart> = city.face_charts(*kind, cell).collect();
+    let sizes = found.places.iter();
+    let sizes = sizes.flat_map(|place| charts[place.face as usize].count);
+    if let Some(size) = sizes.max().filter(|&size| size > MOST) {
+        wrong_usage(&format!(
+            "--glb: a face of {size} cells is more than a texture has ({MOST}); take larger cells"
+        ));
+    }
+}
 
 pub(super) fn write(job: &Job<'_>, path: &Path) -> anyhow::Result<()> {
     let shades = Shades::new(job.mapped(), &job.style());

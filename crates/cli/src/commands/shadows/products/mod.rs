@@ -8,7 +8,7 @@ mod glb;
 mod moments;
 mod tiles;
 
-use ombra::city::{City, Origin};
+use ombra::city::City;
 use ombra::formats::raster::{MapStyle, Scale, TileSet, Unit};
 
 pub(crate) use args::ProductsArgs;
@@ -135,18 +135,21 @@ pub(super) fn refuse(args: &ShadowsArgs) {
 /// Whether there are not too many of anything, before it is measured.
 pub(super) fn check(
     args: &ShadowsArgs,
-    origin: &Origin,
+    city: &City,
     places: &Places,
     when: &When,
 ) -> anyhow::Result<()> {
     let products = &args.products;
     if let (Some(_), Kind::Grid { grid, .. }) = (&products.tiles, &places.kind)
-        && let Err(error) = TileSet::new(origin, grid, products.max_zoom)
+        && let Err(error) = TileSet::new(&city.origin, grid, products.max_zoom)
     {
         wrong_usage(&format!("--tiles: {error}"));
     }
     if products.frames.is_some() {
         moments::of(when, products.every(), places.tiles.places().len())?;
+    }
+    if products.glb.is_some() {
+        glb::check(city, places, args.places.cell);
     }
     Ok(())
 }

@@ -1,7 +1,5 @@
 //! The moments of a day that are shown.
 
-use anyhow::Context as _;
-use jiff::tz::TimeZone;
 use ombra::sun::Instant;
 
 use super::super::when::When;
@@ -28,7 +26,7 @@ pub(super) fn of(when: &When, every: f64, places: usize) -> anyhow::Result<Vec<M
             when.days
         ));
     }
-    let zone = TimeZone::get(&when.zone).context("the time zone of --frames has no name")?;
+    let zone = &when.time_zone;
     let mut moments = Vec::new();
     let count = when
         .spans
@@ -41,7 +39,7 @@ pub(super) fn of(when: &When, every: f64, places: usize) -> anyhow::Result<Vec<M
         ));
     }
     for span in &when.spans {
-        let start = span.start.zoned(&zone).time();
+        let start = span.start.zoned(zone).time();
         let clock = f64::from(start.hour()) * 3600.0
             + f64::from(start.minute()) * 60.0
             + f64::from(start.second())
@@ -52,7 +50,7 @@ pub(super) fn of(when: &When, every: f64, places: usize) -> anyhow::Result<Vec<M
             // Of a clock's whole seconds, whatever rounding did.
             let seconds = span.start.seconds() + first + step as f64 * every;
             let at = Instant::from_seconds((seconds * 1000.0).round() / 1000.0);
-            let time = at.zoned(&zone).time();
+            let time = at.zoned(zone).time();
             let clock = if time.second() == 0 {
                 format!("{:02}:{:02}", time.hour(), time.minute())
             } else {

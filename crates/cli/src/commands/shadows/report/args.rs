@@ -10,7 +10,7 @@ use super::super::args::metres;
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ReportArgs {
     /// The table that a rule asks for, instead of a map: -o OUT writes OUT.csv, OUT.json and OUT.html, or the one of them that OUT names
-    #[arg(long, value_enum, value_name = "RULE", conflicts_with_all = ["png", "contours", "tiles", "frames", "glb", "area", "margin", "study", "on", "resume"])]
+    #[arg(long, value_enum, value_name = "RULE", conflicts_with_all = ["png", "contours", "levels", "tiles", "max_zoom", "frames", "every", "glb", "spells", "attribute", "by_building", "area", "margin", "study", "on", "resume"])]
     pub(crate) report: Option<Rule>,
 
     /// What the rule protects: parks and gardens as polygons (GeoJSON), called by their attribute `name`; for japan the site

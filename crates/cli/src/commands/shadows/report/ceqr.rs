@@ -1,7 +1,7 @@
 //! New York: incremental shadow by the CEQR Technical Manual.
 
 use jiff::civil::Date;
-use ombra::accrual::{Coverage, Occluders, Spells, Stretches, new_shadow, shadow};
+use ombra::accrual::{Coverage, Occluders, Spells, Stretches, gained, new_shadow, shadow};
 use ombra::city::Change;
 use ombra::sun::{ALMANAC_SUNRISE, Calendar, Span};
 
@@ -9,8 +9,9 @@ use super::super::args::WhenArgs;
 use super::clock::{Clock, length};
 use super::frame::{Cell, Column, Figure, Report, RuleText, SQUARE_FEET, Table};
 use super::map::Cells;
+use super::progress::{Progress, blocks};
 use super::resources::Resource;
-use super::study::{Progress, Study};
+use super::study::Study;
 
 /// Seconds after sunrise and before sunset.
 const MARGIN: f64 = 5400.0;
@@ -21,9 +22,6 @@ const DAYS: [&str; 4] = ["03-21", "05-06", "06-21", "12-21"];
 /// Shadow that is gone from all places for no longer than this, in seconds, has not left: between two places of the grid a narrow one
 /// is on neither.
 const GAP: f64 = 60.0;
-
-/// Blocks of tiles are measured at once: so many.
-const BLOCK: usize = 256;
 
 /// The four days, unless others are asked for.
 pub(super) fn when(args: &WhenArgs, calendar: &Calendar) -> WhenArgs {
@@ -144,8 +142,7 @@ impl Found {
         });
         let (mut new, mut before, mut after) = (Vec::new(), Vec::new(), Vec::new());
         let tiles = &resource.tiles;
-        for first in (0..tiles.len()).step_by(BLOCK) {
-            let block = first..tiles.len().min(first + BLOCK);
+        for block in blocks(tiles) {
             let stretches = |spells: &Spells<'_>| spells.stretches_of(tiles, block.clone());
             let [was, is]: [Stretches; 2] = study
                 .cpu()
@@ -159,7 +156,7 @@ impl Found {
             let coverage = Coverage::of(spans.iter().map(Vec::as_slice));
             coverage.periods(spans.len().max(1), 0.0)
         };
-        let dark = Span::difference(&all_dark(&after), &all_dark(&before));
+        let dark = gained(&all_dark(&before), &all_dark(&after));
         Some(Self {
             coverage: Coverage::of(new.iter().map(Vec::as_slice)),
             dark: dark.iter().map(Span::seconds).sum(),

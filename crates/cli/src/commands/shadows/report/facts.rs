@@ -51,7 +51,7 @@ impl Study<'_> {
             fact(
                 "place",
                 "Where the sun is reckoned for",
-                Cell::text(format!("{latitude:.5}° north, {longitude:.5}° east")),
+                Cell::text(place(latitude, longitude)),
             ),
             fact(
                 "when",
@@ -104,5 +104,29 @@ impl Study<'_> {
             fact("cell_m", "Places are apart, metres", cell),
             fact("places", "Places measured", Cell::count(places)),
         ]
+    }
+}
+
+/// Degrees, as people say them.
+fn place(latitude: f64, longitude: f64) -> String {
+    let side = |degrees: f64, names: [&str; 2]| {
+        let name = names[usize::from(degrees < 0.0)];
+        format!("{:.5}° {name}", degrees.abs())
+    };
+    let (north, east) = (
+        side(latitude, ["north", "south"]),
+        side(longitude, ["east", "west"]),
+    );
+    format!("{north}, {east}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::place;
+
+    #[test]
+    fn places_lie_north_or_south_east_or_west() {
+        assert_eq!(place(52.5, 13.4), "52.50000° north, 13.40000° east");
+        assert_eq!(place(-33.0, -73.98), "33.00000° south, 73.98000° west");
     }
 }

@@ -85,7 +85,7 @@ impl Cell {
         }
     }
 
-    /// A share of one, as percent to two digits.
+    /// A share of one, as percent to so many digits after the point.
     pub(super) fn percent(share: f64, digits: usize) -> Self {
         Self::number(100.0 * share, digits)
     }

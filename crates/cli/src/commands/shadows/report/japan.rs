@@ -1,6 +1,7 @@
 //! Japan: hours of shadow around a site at the winter solstice, by article 56-2 of the Building Standards Act.
 
 mod found;
+mod ground;
 mod zones;
 
 use std::path::Path;

@@ -225,7 +225,7 @@ pub(super) fn outline(building: &Building) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// Whether a ring faces up: of two faces above one another the upper one is enough.
-fn is_wide(ring: &[[f64; 2]]) -> bool {
+pub(super) fn is_wide(ring: &[[f64; 2]]) -> bool {
     let next = ring.iter().skip(1).chain(ring.first());
     let twice: f64 = ring
         .iter()

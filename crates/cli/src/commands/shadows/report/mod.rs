@@ -9,12 +9,12 @@ mod frame;
 mod japan;
 mod map;
 mod page;
+mod progress;
 mod prop_k;
 mod resources;
 mod study;
 mod written;
 
-use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 pub(crate) use args::{ReportArgs, Rule};
@@ -24,7 +24,7 @@ use written::Outputs;
 
 use super::args::{Method, ShadowsArgs};
 use super::{Session, refuse_to_write_what_is_read, refuse_what_is_not_used, wrong_usage};
-use crate::commands::{Talk, command};
+use crate::commands::{Talk, command, print_json};
 use crate::interrupt;
 
 pub(super) fn run(args: &ShadowsArgs, rule: Rule) -> anyhow::Result<ExitCode> {
@@ -50,8 +50,7 @@ pub(super) fn run(args: &ShadowsArgs, rule: Rule) -> anyhow::Result<ExitCode> {
     outputs.write(&report)?;
     say(args, &report, &outputs, &talk);
     if args.json {
-        let json = serde_json::to_string_pretty(&written::json(&report, &command()))?;
-        writeln!(io::stdout(), "{json}")?;
+        print_json(&written::json(&report, &command()))?;
     }
     Ok(ExitCode::SUCCESS)
 }

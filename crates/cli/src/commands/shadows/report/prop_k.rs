@@ -12,7 +12,7 @@ use super::frame::{Column, Figure, Report, RuleText, Table};
 use super::map::Cells;
 use super::resources::Resource;
 use super::study::Study;
-use year::{LEAST, Year, peak, seconds};
+use year::{LEAST, Year, peak};
 
 /// Seconds after sunrise and before sunset.
 const MARGIN: f64 = 3600.0;
@@ -37,16 +37,12 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
         .install(|| [&study.before, study.after()].map(|city| Occluders::new(&city.facets())));
     let days = study.when.sheets();
     let whole_year = days.concat();
+    let exact = study.cpu().install(|| Exact::new(&before, &whole_year));
     let places: usize = study.resources.iter().map(Resource::places).sum();
     let mut progress = study.progress(2 * places);
     let (mut found, mut parks) = (Vec::new(), Vec::new());
     for resource in &study.resources {
-        let existing = seconds(
-            study,
-            &Exact::new(&before, &whole_year),
-            resource,
-            &mut progress,
-        )?;
+        let existing = study.seconds(&exact, &resource.tiles, &mut progress)?;
         let again = study.again(resource, &before, &change, &whole_year);
         let mut year = Year::measure(
             study,

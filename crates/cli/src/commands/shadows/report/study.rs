@@ -1,10 +1,9 @@
 //! What is studied: a city before and after a change, days and hours by a rule, areas and their places.
 
 use std::io::{self, IsTerminal as _};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::bail;
-use ombra::accrual::{Again, Ground, Occluders, Tiles};
+use ombra::accrual::{Again, Exact, Ground, Occluders, Tiles};
 use ombra::city::{Building, Change, City, Edited, Extent, Inside};
 use ombra::geometry::{Aabb, Point3};
 use ombra::pipeline::Cpu;
@@ -20,6 +19,7 @@ use super::super::{Session, wrong_usage};
 use super::args::Rule;
 use super::frame::rounded;
 use super::map::MapDrawing;
+use super::progress::{Progress, blocks};
 use super::resources::{self, Resource};
 use super::{bre, ceqr, japan, prop_k};
 use crate::commands::Talk;
@@ -167,6 +167,22 @@ impl<'a> Study<'a> {
         })
     }
 
+    /// How many seconds each place of some tiles lies in shadow. `None` if it was interrupted.
+    pub(super) fn seconds(
+        &self,
+        exact: &Exact<'_>,
+        tiles: &Tiles,
+        progress: &mut Progress<'_>,
+    ) -> Option<Vec<f64>> {
+        let mut seconds = Vec::with_capacity(tiles.places().len());
+        for block in blocks(tiles) {
+            let own = self.cpu().install(|| exact.seconds_of(tiles, block));
+            progress.step(own.len())?;
+            seconds.extend(own);
+        }
+        Some(seconds)
+    }
+
     /// A bar for so many places.
     pub(super) fn progress(&self, total: usize) -> Progress<'_> {
         Progress {
@@ -249,27 +265,4 @@ impl<'a> Study<'a> {
 fn ends<'p>(places: impl Iterator<Item = &'p Point3>) -> Option<[Point3; 2]> {
     let around = Aabb::around(places.copied());
     (!around.is_empty()).then_some([around.min, around.max])
-}
-
-/// How far it is, for whoever looks, and whether it goes on.
-pub(super) struct Progress<'a> {
-    bar: Jobs,
-    done: u64,
-    total: u64,
-    stop: &'a AtomicBool,
-}
-
-impl Progress<'_> {
-    /// After so many more places. `None` if it was interrupted.
-    pub(super) fn step(&mut self, places: usize) -> Option<()> {
-        self.done += places as u64;
-        self.bar.update(self.done, self.total, "places");
-        (!self.stop.load(Ordering::Relaxed)).then_some(())
-    }
-}
-
-impl Drop for Progress<'_> {
-    fn drop(&mut self) {
-        self.bar.finish();
-    }
 }

@@ -21,7 +21,7 @@ pub(super) struct Town {
 
 impl Town {
     /// Degrees of so many metres east and north of the town.
-    fn at(self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn at(self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (a, e2) = (6_378_137.0, 0.006_694_379_990_14);
         let (sin, cos) = self.latitude.to_radians().sin_cos();
         let w2: f64 = 1.0 - e2 * sin * sin;

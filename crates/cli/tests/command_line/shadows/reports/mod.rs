@@ -3,6 +3,8 @@
 mod against_rays;
 mod asked;
 mod boxes;
+mod shapes;
+mod skies;
 mod sun_against_rays;
 
 use std::path::Path;
@@ -211,57 +213,6 @@ fn times_do_not_follow_summer_time() {
         "park.geojson",
     ];
     assert_eq!(report(folder, &all)["clock"], "EST and EDT");
-}
-
-#[test]
-fn days_without_sun_are_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let north = Town {
-        latitude: 72.0,
-        longitude: 25.0,
-    };
-    north.write_blocks(
-        folder,
-        "city.geojson",
-        &[Block([100.0, 0.0, 120.0, 20.0], 12.0)],
-    );
-    north.write_blocks(
-        folder,
-        "tower.geojson",
-        &[Block([-10.0, -30.0, 10.0, -10.0], 60.0)],
-    );
-    north.write_areas(
-        folder,
-        "park.geojson",
-        &[("Park", [-20.0, 0.0, 20.0, 40.0])],
-    );
-    let same = [
-        "--report",
-        "ceqr",
-        "--with",
-        "tower.geojson",
-        "--resources",
-        "park.geojson",
-    ];
-    let told = report(
-        folder,
-        &[&["city.geojson", "--year", "2026"], &same[..]].concat(),
-    );
-    let rows = told["rows"].as_array().unwrap();
-    assert_eq!(rows[3]["result"], "no sun within the hours");
-    assert_eq!(rows[3]["from"], Value::Null);
-    assert_eq!(rows[2]["result"], "yes", "in June the sun is up all day");
-    let talk = fail(
-        folder,
-        &[
-            &["shadows", "city.geojson", "--date", "2026-12-21"],
-            &same[..],
-        ]
-        .concat(),
-        1,
-    );
-    assert!(talk.contains("the sun does not rise"), "{talk}");
 }
 
 #[test]

@@ -6,8 +6,7 @@ use ombra::city::{FaceChart, FacePlace};
 use ombra::formats::raster::Shades;
 use ombra::formats::{GlbMesh, GlbModel};
 
-use super::super::atlas::{Atlas, MOST};
-use super::super::wrong_usage;
+use super::super::atlas::Atlas;
 use super::{NO_MINUTES, textured};
 
 /// The faces that have places, a pixel a cell.
@@ -22,11 +21,6 @@ pub(super) fn push(
     let groups: Vec<&[FacePlace]> = places.chunk_by(|a, b| a.face == b.face).collect();
     let chart = |group: &[FacePlace]| &charts[group[0].face as usize];
     let sizes: Vec<[u32; 2]> = groups.iter().map(|group| chart(group).count).collect();
-    if let Some(size) = sizes.iter().flatten().find(|&&size| size > MOST) {
-        wrong_usage(&format!(
-            "--glb: a face of {size} cells is more than a texture has ({MOST}); take larger cells"
-        ));
-    }
     let mut atlas = Atlas::new(&sizes, NO_MINUTES);
     let first = model.materials.len();
     let mut meshes: Vec<GlbMesh> = (0..atlas.pages.len())

@@ -8,19 +8,10 @@ use super::super::clock::Clock;
 use super::super::frame::{Cell, Column, Figure, Report, RuleText, Table};
 use super::super::map::Cells;
 use super::super::resources::Resource;
-use super::super::study::{Progress, Study};
+use super::super::study::Study;
 
 /// Seconds of sun that a place should have.
 const ENOUGH: f64 = 7200.0;
-
-/// The share of an area that should have them.
-const HALF: f64 = 0.5;
-
-/// The share of what it was before from which on a loss is not noticed.
-const FORMER: f64 = 0.8;
-
-/// Blocks of tiles are measured at once: so many.
-const BLOCK: usize = 256;
 
 pub(super) fn report(study: &Study<'_>) -> Option<Report> {
     let clock = Clock::civil(study.when.time_zone.clone());
@@ -31,24 +22,24 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
     };
     let places: usize = study.resources.iter().map(Resource::places).sum();
     let mut progress = study.progress(sides.len() * places);
+    let whole = study.when.hours() * 3600.0;
     let mut found: Vec<Garden> = study.resources.iter().map(|_| Garden::default()).collect();
     for city in sides {
         let occluders = study.cpu().install(|| Occluders::new(&city.facets()));
         let sheets = study.sheets(&study.when.spans);
         let exact = study.cpu().install(|| Exact::new(&occluders, &sheets));
         for (resource, garden) in study.resources.iter().zip(&mut found) {
-            let sun = sun(study, &exact, resource, &mut progress)?;
+            let shadow = study.seconds(&exact, &resource.tiles, &mut progress)?;
+            let sun = shadow.into_iter().map(|shadow| (whole - shadow).max(0.0));
+            let sun: Vec<f64> = sun.collect();
             let enough = sun.iter().filter(|&&seconds| seconds >= ENOUGH).count();
-            let share = enough as f64 / sun.len().max(1) as f64;
-            garden.before = garden.now.replace(share).or(garden.before);
+            garden.before = garden.now.replace(enough).or(garden.before);
             garden.sun = sun;
         }
     }
     drop(progress);
     let pairs = study.resources.iter().zip(&found);
-    let told = pairs
-        .clone()
-        .filter(|(resource, _)| resource.nothing().is_none());
+    let told = (pairs.clone()).filter_map(|(resource, garden)| garden.told(resource));
     Some(Report {
         rule: rule(study),
         facts: study.facts_of_areas(&clock),
@@ -64,110 +55,121 @@ pub(super) fn report(study: &Study<'_>) -> Option<Report> {
             .iter()
             .filter_map(Resource::finding)
             .collect(),
-        summary: told
-            .map(|(resource, garden)| garden.told(resource))
-            .collect(),
+        summary: told.collect(),
         figures: vec![figure(study, &found)],
         more: serde_json::Map::new(),
     })
 }
 
-/// How many seconds each place has sun.
-fn sun(
-    study: &Study<'_>,
-    exact: &Exact<'_>,
-    resource: &Resource,
-    progress: &mut Progress<'_>,
-) -> Option<Vec<f64>> {
-    let (tiles, whole) = (&resource.tiles, study.when.hours() * 3600.0);
-    let mut seconds = Vec::with_capacity(resource.places());
-    for first in (0..tiles.len()).step_by(BLOCK) {
-        let block = first..tiles.len().min(first + BLOCK);
-        let own = study.cpu().install(|| exact.seconds_of(tiles, block));
-        progress.step(own.len())?;
-        seconds.extend(own.into_iter().map(|shadow| (whole - shadow).max(0.0)));
-    }
-    Some(seconds)
-}
-
 #[derive(Default)]
 struct Garden {
-    /// Shares of the area with enough sun: without the change, if there is one, and as it is asked about.
-    before: Option<f64>,
-    now: Option<f64>,
+    /// Places with enough sun: without the change, if there is one, and as it is asked about.
+    before: Option<usize>,
+    now: Option<usize>,
     /// Seconds of each place as it is asked about.
     sun: Vec<f64>,
 }
 
 impl Garden {
+    /// `None` where nothing was measured.
+    fn counts(&self) -> Option<Counts> {
+        let places = self.sun.len();
+        let counts = |now| Counts {
+            before: self.before,
+            now,
+            places,
+        };
+        self.now.filter(|_| places > 0).map(counts)
+    }
+
     fn row(&self, resource: &Resource) -> Vec<Cell> {
         let mut cells = vec![
             Cell::text(&resource.area.name),
             Cell::number(resource.open(), 1),
             Cell::count(resource.places()),
         ];
-        let Some(now) = self.now.filter(|_| resource.nothing().is_none()) else {
+        let Some(counts) = self.counts() else {
             cells.resize(columns().len() - 2, Cell::nothing());
             cells.extend([Cell::text("not measured"), Cell::nothing()]);
             return cells;
         };
-        let share = |share: f64| Cell::percent(share, 1);
-        let (verdict, why) = verdict(self.before, now);
+        let share = |count| Cell::percent(counts.share(count), 1);
+        let half = |count| Cell::yes(counts.is_half(count));
+        let (passes, why) = counts.verdict();
         cells.extend([
-            Cell::of(self.before, share),
-            share(now),
-            Cell::of(self.before, |before| Cell::yes(before >= HALF)),
-            Cell::yes(now >= HALF),
-            Cell::of(ratio(self.before, now), |ratio| Cell::number(ratio, 3)),
-            Cell::text(if verdict { "pass" } else { "fail" }),
+            Cell::of(counts.before, share),
+            share(counts.now),
+            Cell::of(counts.before, half),
+            half(counts.now),
+            Cell::of(counts.ratio(), |ratio| Cell::number(ratio, 3)),
+            Cell::text(if passes { "pass" } else { "fail" }),
             Cell::text(why),
         ]);
         cells
     }
 
-    fn told(&self, resource: &Resource) -> String {
-        let now = self.now.unwrap_or(0.0);
-        let (passes, why) = verdict(self.before, now);
+    fn told(&self, resource: &Resource) -> Option<String> {
+        let (passes, why) = self.counts()?.verdict();
         let word = if passes { "pass" } else { "fail" };
-        format!("{}: {word}: {why}", resource.area.name)
+        Some(format!("{}: {word}: {why}", resource.area.name))
     }
 }
 
-/// What is left of what had enough sun.
-fn ratio(before: Option<f64>, now: f64) -> Option<f64> {
-    before
-        .filter(|&before| before > 0.0)
-        .map(|before| now / before)
+/// How many places of a garden have enough sun.
+#[derive(Clone, Copy, Debug)]
+struct Counts {
+    /// Without the change, if there is one.
+    before: Option<usize>,
+    now: usize,
+    /// All of them.
+    places: usize,
 }
 
-fn verdict(before: Option<f64>, now: f64) -> (bool, String) {
-    let percent = 100.0 * now;
-    if now >= HALF {
-        return (
-            true,
-            format!("{percent:.1} % of it has 2 h of sun, half of it should"),
-        );
+impl Counts {
+    fn share(self, count: usize) -> f64 {
+        count as f64 / self.places as f64
     }
-    let short = format!("{percent:.1} % of it has 2 h of sun, less than half");
-    match before {
-        None => (false, short),
-        Some(before) if now < FORMER * before => {
-            let ratio = now / before;
-            (
-                false,
-                format!(
-                    "{short}, and {ratio:.2} times the former {:.1} %: a loss that is likely to be noticed",
-                    100.0 * before
-                ),
-            )
+
+    /// Whether at least half of the places are so many.
+    const fn is_half(self, count: usize) -> bool {
+        2 * count >= self.places
+    }
+
+    /// What is left of what had enough sun.
+    fn ratio(self) -> Option<f64> {
+        let before = self.before.filter(|&before| before > 0)?;
+        Some(self.now as f64 / before as f64)
+    }
+
+    /// Whether less than 0.8 times what it was is left. In whole numbers, so that what is just 0.8 times is not rounded to less.
+    fn is_less(self) -> bool {
+        self.before.is_some_and(|before| 5 * self.now < 4 * before)
+    }
+
+    fn verdict(self) -> (bool, String) {
+        let percent = |count| format!("{:.1} %", 100.0 * self.share(count));
+        let now = percent(self.now);
+        if self.is_half(self.now) {
+            return (
+                true,
+                format!("{now} of it has 2 h of sun, half of it should"),
+            );
         }
-        Some(before) => (
-            true,
-            format!(
-                "{short}, but no less than {FORMER} times the former {:.1} %: no loss that is likely to be noticed",
-                100.0 * before
+        let short = format!("{now} of it has 2 h of sun, less than half");
+        let Some(before) = self.before.map(percent) else {
+            return (false, short);
+        };
+        let loss = match self.ratio() {
+            Some(ratio) if self.is_less() => {
+                format!(
+                    "and {ratio:.3} times the former {before}: a loss that is likely to be noticed"
+                )
+            }
+            _ => format!(
+                "but no less than 0.8 times the former {before}: no loss that is likely to be noticed"
             ),
-        ),
+        };
+        (!self.is_less(), format!("{short}, {loss}"))
     }
 }
 
@@ -245,14 +247,47 @@ mod tests {
 
     #[test]
     fn a_garden_passes_by_its_half_or_by_what_it_was() {
-        let passes = |before, now| verdict(before, now).0;
-        assert!(passes(None, 0.5) && !passes(None, 0.499));
+        let counts = |before, now| Counts {
+            before,
+            now,
+            places: 1000,
+        };
+        let passes = |before, now| counts(before, now).verdict().0;
+        assert!(passes(None, 500) && !passes(None, 499));
         // Above the half a loss does not matter.
-        assert!(passes(Some(1.0), 0.5));
-        assert!(!passes(Some(0.6), 0.47) && passes(Some(0.6), 0.49));
+        assert!(passes(Some(1000), 500));
+        assert!(!passes(Some(600), 479) && passes(Some(600), 481));
         // What had no sun loses none.
-        assert!(passes(Some(0.0), 0.0) && passes(Some(0.2), 0.3));
-        assert_eq!(ratio(Some(0.0), 0.0), None);
-        assert_eq!(ratio(Some(0.5), 0.25), Some(0.5));
+        assert!(passes(Some(0), 0) && passes(Some(200), 300));
+        assert_eq!(counts(Some(0), 0).ratio(), None);
+        assert_eq!(counts(Some(500), 250).ratio(), Some(0.5));
+    }
+
+    /// Of 100 places, 45 and 36: as shares 0.36 is less than 0.8 times 0.45 by rounding.
+    #[test]
+    fn just_four_fifths_of_what_it_was_pass() {
+        for places in 1..=120 {
+            for before in (0..=places).step_by(5) {
+                let verdict = |now| {
+                    let before = Some(before);
+                    let counts = Counts {
+                        before,
+                        now,
+                        places,
+                    };
+                    counts.verdict().0
+                };
+                let now = before / 5 * 4;
+                assert!(verdict(now), "{now} of {before}, {places}");
+                let is_half = |now| 2 * now >= places;
+                if now > 0 {
+                    assert_eq!(
+                        verdict(now - 1),
+                        is_half(now - 1),
+                        "{now} of {before}, {places}"
+                    );
+                }
+            }
+        }
     }
 }

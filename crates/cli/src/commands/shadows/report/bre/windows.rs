@@ -7,6 +7,7 @@ use ombra::city::{City, Inside};
 use super::super::super::places::{Kind, Places};
 use super::super::clock::{Clock, length};
 use super::super::frame::{Cell, Column, Report, RuleText, Table};
+use super::super::progress::Progress;
 use super::super::study::Study;
 
 /// Seconds of sun for each level, the highest first.
@@ -24,11 +25,14 @@ pub(super) fn report(study: &Study<'_>, points: &Places) -> Option<Report> {
         return None;
     };
     let clock = Clock::civil(study.when.time_zone.clone());
+    let sides = 1 + usize::from(study.edited.is_some());
+    let mut progress = study.progress(sides * points.tiles.places().len());
     let before = match &study.edited {
-        Some(_) => Some(sun(study, points, &study.before)?),
+        Some(_) => Some(sun(study, points, &study.before, &mut progress)?),
         None => None,
     };
-    let now = sun(study, points, study.after())?;
+    let now = sun(study, points, study.after(), &mut progress)?;
+    drop(progress);
     let was_inside = study.edited.as_ref().map(|_| Inside::new(&study.before));
     let was_free = |index: usize| {
         was_inside
@@ -110,14 +114,18 @@ pub(super) fn report(study: &Study<'_>, points: &Places) -> Option<Report> {
     })
 }
 
-/// How many seconds each point has sun; NaN for those that lie in a building.
-fn sun(study: &Study<'_>, points: &Places, city: &City) -> Option<Vec<f64>> {
+/// How many seconds each point has sun; NaN for those that lie in a building. `None` if it was interrupted.
+fn sun(
+    study: &Study<'_>,
+    points: &Places,
+    city: &City,
+    progress: &mut Progress<'_>,
+) -> Option<Vec<f64>> {
     let sheets = study.sheets(&study.when.spans);
     let tiles = &points.tiles;
-    let shadow = study.cpu().install(|| {
-        let occluders = Occluders::new(&city.facets());
-        Exact::new(&occluders, &sheets).seconds_of(tiles, 0..tiles.len())
-    });
+    let occluders = study.cpu().install(|| Occluders::new(&city.facets()));
+    let exact = study.cpu().install(|| Exact::new(&occluders, &sheets));
+    let shadow = study.seconds(&exact, tiles, progress)?;
     let whole = study.when.hours() * 3600.0;
     let Kind::Points { outside, .. } = &points.kind else {
         return None;

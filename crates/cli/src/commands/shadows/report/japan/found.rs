@@ -1,6 +1,6 @@
 //! The hours of shadow of the proposed buildings alone, on a level plane.
 
-use ombra::accrual::{Exact, Ground, Occluders, Tiles};
+use ombra::accrual::{Exact, Occluders, Tiles};
 use ombra::city::{Building, City, Extent, Facet, Grid, Inside, line_around};
 use ombra::formats::contour::{ContourLine, contour_lines};
 use ombra::geometry::Point3;
@@ -11,11 +11,9 @@ use super::super::super::bound::extent;
 use super::super::super::wrong_usage;
 use super::super::map::outline;
 use super::super::study::Study;
+use super::ground::average_ground;
 use super::limits;
 use super::zones::{Zone, along, to_sides};
-
-/// Blocks of tiles are measured at once: so many.
-const BLOCK: usize = 256;
 
 /// Seconds between the instants at which it is looked at how far shadow reaches.
 const LOOK: f64 = 600.0;
@@ -91,32 +89,26 @@ impl Found {
                 .any(|corner| f64::from(corner.z) > plane),
         };
         let mut progress = study.progress(tiles.places().len());
-        for first in (0..tiles.len()).step_by(BLOCK) {
-            let block = first..tiles.len().min(first + BLOCK);
-            let range = tiles.range(block.clone());
-            let count = range.len();
-            let seconds = study.cpu().install(|| exact.seconds_of(&tiles, block));
-            for (place, seconds) in range.zip(seconds) {
-                let at = tiles.places()[place];
-                found.hours[tiles.indices()[place] as usize] = (seconds / 3600.0) as f32;
-                let at = [at.x, at.y].map(f64::from);
-                if seconds > 0.0 && !site.within.contains(at) {
-                    let distance = to_sides(&site.polygons, at);
-                    if let Some(zone) = Zone::of(distance) {
-                        found.see(
-                            zone,
-                            Most {
-                                seconds,
-                                at,
-                                distance,
-                            },
-                        );
-                    }
+        let all = study.seconds(&exact, &tiles, &mut progress)?;
+        drop(progress);
+        let places = tiles.places().iter().zip(tiles.indices());
+        for ((at, &index), seconds) in places.zip(all) {
+            found.hours[index as usize] = (seconds / 3600.0) as f32;
+            let at = [at.x, at.y].map(f64::from);
+            if seconds > 0.0 && !site.within.contains(at) {
+                let distance = to_sides(&site.polygons, at);
+                if let Some(zone) = Zone::of(distance) {
+                    found.see(
+                        zone,
+                        Most {
+                            seconds,
+                            at,
+                            distance,
+                        },
+                    );
                 }
             }
-            progress.step(count)?;
         }
-        drop(progress);
         found.see_lines(study, &alone, &exact, plane);
         found.contours = contour_lines(&found.grid, &found.hours, &levels(study));
         Some(found)
@@ -208,29 +200,6 @@ impl Found {
             })
         });
         json!({ "type": "FeatureCollection", "features": features.collect::<Vec<_>>() })
-    }
-}
-
-/// The mean height of the ground along the outlines of buildings: z in local metres. Of those whose outlines it has none under, what
-/// they stand on.
-fn average_ground(city: &City, buildings: &[Building]) -> f64 {
-    let ground = Ground::new(city);
-    let (mut sum, mut length) = (0.0, 0.0);
-    for building in buildings {
-        for ring in outline(building) {
-            let next = ring.iter().skip(1).chain(ring.first());
-            for (a, b) in ring.iter().zip(next) {
-                let long = (a[0] - b[0]).hypot(a[1] - b[1]);
-                let z = |&at: &[f64; 2]| ground.at(at).map_or(building.ground, |place| place.z);
-                sum += long * 0.5 * f64::from(z(a) + z(b));
-                length += long;
-            }
-        }
-    }
-    if length > 0.0 {
-        sum / length
-    } else {
-        f64::from(city.ground)
     }
 }
 

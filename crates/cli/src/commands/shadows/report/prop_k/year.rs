@@ -7,32 +7,12 @@ use serde_json::{Value, json};
 
 use super::super::clock::Clock;
 use super::super::frame::{Cell, SQUARE_FEET, rounded};
+use super::super::progress::Progress;
 use super::super::resources::Resource;
-use super::super::study::{Progress, Study};
+use super::super::study::Study;
 
 /// A day has new shadow if some place has more of it by so many seconds: by half of what a day is good to.
 pub(super) const LEAST: f64 = 0.5;
-
-/// Blocks of tiles are measured at once: so many.
-const BLOCK: usize = 256;
-
-/// How many seconds each place lies in shadow.
-pub(super) fn seconds(
-    study: &Study<'_>,
-    exact: &Exact<'_>,
-    resource: &Resource,
-    progress: &mut Progress<'_>,
-) -> Option<Vec<f64>> {
-    let tiles = &resource.tiles;
-    let mut seconds = Vec::with_capacity(resource.places());
-    for first in (0..tiles.len()).step_by(BLOCK) {
-        let block = first..tiles.len().min(first + BLOCK);
-        let own = study.cpu().install(|| exact.seconds_of(tiles, block));
-        progress.step(own.len())?;
-        seconds.extend(own);
-    }
-    Some(seconds)
-}
 
 /// The year of a park.
 pub(super) struct Year {
