@@ -2,6 +2,7 @@
 
 mod args;
 mod bound;
+mod clock;
 mod command;
 mod demo;
 mod measure;

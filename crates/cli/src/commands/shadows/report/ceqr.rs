@@ -6,7 +6,7 @@ use ombra::city::Change;
 use ombra::sun::{ALMANAC_SUNRISE, Calendar, Span};
 
 use super::super::args::WhenArgs;
-use super::clock::{Clock, length};
+use super::super::clock::{Clock, length};
 use super::frame::{Cell, Column, Figure, Report, RuleText, SQUARE_FEET, Table};
 use super::map::Cells;
 use super::progress::{Progress, blocks};

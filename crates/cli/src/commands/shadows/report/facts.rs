@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
+use super::super::clock::Clock;
 use super::super::output::EXACT;
-use super::clock::Clock;
 use super::frame::{Cell, Fact};
 use super::resources::Resource;
 use super::study::Study;

@@ -10,8 +10,8 @@ use anyhow::bail;
 use ombra::sun::{Calendar, Season, Window};
 
 use super::super::args::{Said, ShadowsArgs, WhenArgs};
+use super::super::clock::{Clock, length};
 use super::args::ReportArgs;
-use super::clock::{Clock, length};
 use super::frame::{Cell, Column, Fact, Figure, Report, RuleText, Table};
 use super::map::Cells;
 use super::resources::Area;

@@ -3,7 +3,6 @@
 mod args;
 mod bre;
 mod ceqr;
-mod clock;
 mod facts;
 mod frame;
 mod japan;

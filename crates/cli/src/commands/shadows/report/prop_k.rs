@@ -7,7 +7,7 @@ use ombra::sun::{ALMANAC_SUNRISE, Calendar};
 use serde_json::Map;
 
 use super::super::args::WhenArgs;
-use super::clock::Clock;
+use super::super::clock::Clock;
 use super::frame::{Column, Figure, Report, RuleText, Table};
 use super::map::Cells;
 use super::resources::Resource;

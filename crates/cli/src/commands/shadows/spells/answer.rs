@@ -12,6 +12,8 @@ use ombra::formats::write_whole;
 use ombra::sun::Instant;
 use serde_json::{Map, Value};
 
+use super::super::clock::Clock;
+
 /// What was found for each place, one group after another.
 pub(super) struct Answer<'a> {
     pub(super) about: &'a SpellsAbout,
@@ -66,7 +68,7 @@ impl Answer<'_> {
     }
 
     fn table(&self, path: &Path) -> anyhow::Result<()> {
-        let zone = TimeZone::get(self.zone)?;
+        let clock = Clock::civil(TimeZone::get(self.zone)?);
         let mut table = csv::Writer::from_writer(Vec::new());
         table.write_record(
             ["place", "longitude", "latitude", "height"]
@@ -74,7 +76,7 @@ impl Answer<'_> {
                 .chain(&COLUMNS),
         )?;
         for (place, [longitude, latitude, height], summary) in self.rows() {
-            let clock = |at: Option<Instant>| at.map_or_else(String::new, |at| clock(at, &zone));
+            let time = |at: Option<Instant>| at.map_or_else(String::new, |at| clock.iso(at));
             table.write_record([
                 place.to_string(),
                 format!("{longitude:.9}"),
@@ -82,8 +84,8 @@ impl Answer<'_> {
                 format!("{height:.3}"),
                 format!("{:.3}", summary.shadow / 60.0),
                 format!("{:.3}", summary.sun / 60.0),
-                clock(summary.first_sun),
-                clock(summary.last_sun),
+                time(summary.first_sun),
+                time(summary.last_sun),
                 format!("{:.3}", summary.longest_sun / 60.0),
                 summary.spells.to_string(),
             ])?;
@@ -92,15 +94,15 @@ impl Answer<'_> {
     }
 
     fn features(&self, path: &Path) -> anyhow::Result<()> {
-        let zone = TimeZone::get(self.zone)?;
+        let clock = Clock::civil(TimeZone::get(self.zone)?);
         let minutes = |seconds: f64| Value::from((seconds / 60.0 * 1e3).round() / 1e3);
         let properties = |(place, _, summary): (u32, [f64; 3], &Summary)| -> Map<String, Value> {
-            let clock = |at: Option<Instant>| at.map(|at| clock(at, &zone)).into();
+            let time = |at: Option<Instant>| at.map(|at| clock.iso(at)).into();
             let values = [
                 minutes(summary.shadow),
                 minutes(summary.sun),
-                clock(summary.first_sun),
-                clock(summary.last_sun),
+                time(summary.first_sun),
+                time(summary.last_sun),
                 minutes(summary.longest_sun),
                 summary.spells.into(),
             ];
@@ -157,18 +159,4 @@ impl Answer<'_> {
         }
         Ok(write_geotiff_bands(path, &bands, &self.metadata)?)
     }
-}
-
-/// As the clock shows it, with the day: 2026-12-21T09:31:07+01:00.
-fn clock(at: Instant, zone: &TimeZone) -> String {
-    let shown = at.zoned(zone).datetime();
-    let offset = zone.to_offset(at.timestamp());
-    let seconds = offset.seconds();
-    let (sign, minutes) = (if seconds < 0 { '-' } else { '+' }, seconds.abs() / 60);
-    format!(
-        "{}{sign}{:02}:{:02}",
-        shown.strftime("%Y-%m-%dT%H:%M:%S"),
-        minutes / 60,
-        minutes % 60
-    )
 }

@@ -4,7 +4,7 @@ use ombra::accrual::{Exact, Occluders};
 use ombra::city::City;
 use ombra::formats::contour::contour_lines;
 
-use super::super::clock::Clock;
+use super::super::super::clock::Clock;
 use super::super::frame::{Cell, Column, Figure, Report, RuleText, Table};
 use super::super::map::Cells;
 use super::super::resources::Resource;

@@ -4,8 +4,8 @@ use jiff::civil::Date;
 use ombra::accrual::{Exact, Occluders};
 use ombra::city::{City, Inside};
 
+use super::super::super::clock::{Clock, length};
 use super::super::super::places::{Kind, Places};
-use super::super::clock::{Clock, length};
 use super::super::frame::{Cell, Column, Report, RuleText, Table};
 use super::super::progress::Progress;
 use super::super::study::Study;

@@ -5,7 +5,7 @@ use ombra::accrual::{Again, Coverage, Exact, Occluders, Peak, Spells, new_shadow
 use ombra::sun::{Sheet, Span};
 use serde_json::{Value, json};
 
-use super::super::clock::Clock;
+use super::super::super::clock::Clock;
 use super::super::frame::{Cell, SQUARE_FEET, rounded};
 use super::super::progress::Progress;
 use super::super::resources::Resource;
