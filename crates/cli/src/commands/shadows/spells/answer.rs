@@ -7,18 +7,28 @@ use ombra::accrual::Summary;
 use ombra::city::{Crs, Origin};
 use ombra::formats::places::{PlaceRow, write_places_geojson};
 use ombra::formats::raster::{Band, Raster, Unit, write_geotiff_bands};
-use ombra::formats::spells::{SpellsAbout, SpellsGroup};
+use ombra::formats::spells::SpellsAbout;
 use ombra::formats::write_whole;
 use ombra::sun::Instant;
 use serde_json::{Map, Value};
 
 use super::super::clock::Clock;
+use super::buildings::Buildings;
+
+/// What was found for the places of a group.
+pub(super) struct Answered {
+    pub(super) places: Vec<u32>,
+    pub(super) positions: Vec<[f64; 3]>,
+    pub(super) summaries: Vec<Summary>,
+    pub(super) buildings: Buildings,
+    /// Seconds to read it, and to answer.
+    pub(super) took: [f64; 2],
+}
 
 /// What was found for each place, one group after another.
 pub(super) struct Answer<'a> {
     pub(super) about: &'a SpellsAbout,
-    pub(super) groups: &'a [SpellsGroup],
-    pub(super) summaries: &'a [Summary],
+    pub(super) groups: &'a [Answered],
     pub(super) metadata: Vec<(String, String)>,
     pub(super) zone: &'a str,
 }
@@ -58,13 +68,11 @@ impl Answer<'_> {
 
     /// Each place with what was found for it.
     fn rows(&self) -> impl Iterator<Item = (u32, [f64; 3], &Summary)> {
-        let places = self
-            .groups
-            .iter()
-            .flat_map(|group| group.places.iter().zip(&group.positions));
-        places
-            .zip(self.summaries)
-            .map(|((&place, &position), summary)| (place, position, summary))
+        self.groups.iter().flat_map(|group| {
+            let places = group.places.iter().zip(&group.positions);
+            let all = places.zip(&group.summaries);
+            all.map(|((&place, &position), summary)| (place, position, summary))
+        })
     }
 
     fn table(&self, path: &Path) -> anyhow::Result<()> {

@@ -50,6 +50,17 @@ impl Buildings {
         }
     }
 
+    /// The places of others.
+    pub(super) fn add_all(&mut self, others: &Self) {
+        for (&owner, other) in &others.0 {
+            let sum = self.0.entry(owner).or_default();
+            sum.places += other.places;
+            sum.seconds += other.seconds;
+            sum.alone += other.alone;
+            sum.most = sum.most.max(other.most);
+        }
+    }
+
     /// Those that take most first; places stand for cells so many metres wide.
     pub(super) fn rows(
         self,

@@ -20,7 +20,7 @@ use serde::Serialize;
 use super::super::args::{SunArgs, WhenArgs, csv, ends_in};
 use super::super::refuse_to_write_what_is_read;
 use super::super::when::{When, calendar};
-use super::answer::{self, Answer};
+use super::answer::{self, Answer, Answered};
 use super::buildings::{self, BuildingRow, Buildings};
 use super::counted::{Weight, weighed};
 use crate::commands::Talk;
@@ -132,56 +132,41 @@ pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
         .transpose()?;
     let (when, counted) = cpu.install(|| asked(args, about, &talk))?;
 
+    let asked = Asked {
+        counted,
+        building,
+        is_by_building: args.by_building.is_some(),
+    };
     let begun = Instant::now();
     let groups = cpu.install(|| {
-        let each = (0..file.groups())
-            .into_par_iter()
-            .map(|group| file.read(group));
-        each.collect::<Result<Vec<_>, _>>()
+        let each = (0..file.groups()).into_par_iter();
+        each.map(|group| asked.answer(&file, group))
+            .collect::<Result<Vec<_>, _>>()
     })?;
-    let read_seconds = begun.elapsed().as_secs_f64();
+    let took = begun.elapsed().as_secs_f64();
     let places: usize = groups.iter().map(|group| group.places.len()).sum();
     if places == 0 {
         bail!("{}: holds no place", args.spells.display());
     }
-    let begun = Instant::now();
-    let stretches = || {
-        groups.par_iter().flat_map(|group| {
-            (0..group.places.len())
-                .into_par_iter()
-                .map(|k| group.stretches.of(k))
-        })
-    };
-    let summaries: Vec<Summary> = cpu.install(|| {
-        let of = |own: &[Stretch]| match building {
-            None => Summary::new(own, &counted),
-            Some(owner) => {
-                let own: Vec<Stretch> = own
-                    .iter()
-                    .copied()
-                    .filter(|own| own.owner == owner)
-                    .collect();
-                Summary::new(&own, &counted)
-            }
-        };
-        stretches().map(of).collect()
+    // Threads do both at once: by what each of them took.
+    let [read, answered] = groups.iter().fold([1e-9, 0.0], |[read, answered], group| {
+        [read + group.took[0], answered + group.took[1]]
     });
+    let read_seconds = took * read / (read + answered);
     let by_building = args.by_building.as_ref().map(|_| {
-        let shares: Vec<Vec<Share>> =
-            cpu.install(|| stretches().map(|own| Share::all(own, &counted)).collect());
         let mut all = Buildings::default();
-        shares.iter().for_each(|shares| all.add(shares));
+        groups
+            .iter()
+            .for_each(|group| all.add_all(&group.buildings));
         all.rows(about.grid().map(|grid| grid.cell), |number| {
             about.buildings[number].clone()
         })
     });
-    let seconds = begun.elapsed().as_secs_f64();
 
     if let Some(path) = &args.output {
         let answer = Answer {
             about,
             groups: &groups,
-            summaries: &summaries,
             metadata: metadata(&file, &when, args),
             zone: &when.zone,
         };
@@ -190,7 +175,8 @@ pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
     if let (Some(path), Some(rows)) = (&args.by_building, &by_building) {
         buildings::write(path, rows)?;
     }
-    let minutes = || summaries.iter().map(|own| own.shadow / 60.0);
+    let summaries = || groups.iter().flat_map(|group| &group.summaries);
+    let minutes = || summaries().map(|own| own.shadow / 60.0);
     let mean = |sum: f64| sum / places as f64;
     let weight = |own: &Counted| own.span.seconds() * own.weight / 3600.0;
     let statistics = Statistics {
@@ -201,22 +187,61 @@ pub(crate) fn run(args: &QueryArgs) -> anyhow::Result<ExitCode> {
         weights: args.weight.iter().map(Weight::text).collect(),
         building: args.building.as_deref(),
         time_zone: &when.zone,
-        sun_hours: counted.iter().map(weight).sum(),
+        sun_hours: asked.counted.iter().map(weight).sum(),
         minutes_least: minutes().fold(f64::INFINITY, f64::min),
         minutes_mean: mean(minutes().sum()),
         minutes_most: minutes().fold(0.0, f64::max),
-        longest_sun_mean: mean(summaries.iter().map(|own| own.longest_sun / 60.0).sum()),
-        spells_mean: mean(summaries.iter().map(|own| own.spells as f64).sum()),
+        longest_sun_mean: mean(summaries().map(|own| own.longest_sun / 60.0).sum()),
+        spells_mean: mean(summaries().map(|own| own.spells as f64).sum()),
         by_building: by_building.as_deref(),
         threads: cpu.threads(),
         read_seconds,
-        seconds,
+        seconds: took - read_seconds,
     };
     talk.say(&line(&statistics));
     if args.json {
         crate::commands::print_json(&statistics)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// What is wanted of each place.
+struct Asked {
+    counted: Vec<Counted>,
+    /// Only the shadow of this one, if any.
+    building: Option<u32>,
+    is_by_building: bool,
+}
+
+impl Asked {
+    /// Reads a group of places and answers: its stretches are in memory only meanwhile.
+    fn answer(&self, file: &SpellsFile, group: usize) -> anyhow::Result<Answered> {
+        let begun = Instant::now();
+        let group = file.read(group)?;
+        let read = begun.elapsed().as_secs_f64();
+        let begun = Instant::now();
+        let own = |stretches: &[Stretch]| match self.building {
+            None => Summary::new(stretches, &self.counted),
+            Some(owner) => {
+                let own = stretches.iter().filter(|own| own.owner == owner);
+                Summary::new(&own.copied().collect::<Vec<_>>(), &self.counted)
+            }
+        };
+        let summaries = group.stretches.iter().map(own).collect();
+        let mut buildings = Buildings::default();
+        if self.is_by_building {
+            for stretches in group.stretches.iter() {
+                buildings.add(&Share::all(stretches, &self.counted));
+            }
+        }
+        Ok(Answered {
+            places: group.places,
+            positions: group.positions,
+            summaries,
+            buildings,
+            took: [read, begun.elapsed().as_secs_f64()],
+        })
+    }
 }
 
 /// One line for people.
