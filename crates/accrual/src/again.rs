@@ -130,12 +130,12 @@ struct Look<'a> {
 impl Look<'_> {
     fn changed_tiles(&self, block: Range<usize>, around: Aabb, room: &mut Room) -> Vec<usize> {
         let mut found = Vec::new();
-        if !self.may_shade(around, room) {
+        if !self.may_shade(block.clone(), around, room) {
             return found;
         }
         for first in block.clone().step_by(TILES) {
             let part = first..block.end.min(first + TILES);
-            if self.may_shade(self.around(part.clone()), room) {
+            if self.may_shade(part.clone(), self.around(part.clone()), room) {
                 let lists = self.tiles.lists(part.clone());
                 let tiles: ArrayVec<Tile, TILES> =
                     lists.iter().map(|list| Tile::new(list)).collect();
@@ -153,10 +153,26 @@ impl Look<'_> {
         Aabb::around(places.filter(|place| is_somewhere(place)).copied())
     }
 
-    fn may_shade(&self, around: Aabb, room: &mut Room) -> bool {
+    /// Whether the change may make a difference to any of some tiles, which lie in a box. What was dark for all of them stays so unless what made it
+    /// dark is gone.
+    fn may_shade(&self, tiles: Range<usize>, around: Aabb, room: &mut Room) -> bool {
         let level = self.exact.level();
-        let mut all = self.exact.ways().iter();
-        all.any(|ways| may_cover(level, self.changed, ways, around, room))
+        self.exact.ways().iter().any(|ways| {
+            let mut may =
+                |which: &Occluders, dark| may_cover(level, which, ways, around, dark, room);
+            if !may(self.changed, 0) {
+                return false;
+            }
+            let Some(dark) = self.dark else {
+                return true;
+            };
+            let of_tile = |tile| ways.which.iter().map(move |&sheet| dark.get(tile, sheet));
+            let dark = tiles
+                .clone()
+                .flat_map(of_tile)
+                .fold(u64::MAX, |all, own| all & own);
+            may(self.gone, 0) || may(self.changed, dark)
+        })
     }
 }
 

@@ -64,10 +64,11 @@ mod x86 {
         occluders: &Occluders,
         ways: &Ways,
         around: Aabb,
+        full: u64,
         room: &mut Room,
     ) -> bool {
         // SAFETY: the caller's promise.
-        unsafe { reaches::<Avx2>(occluders, ways, around, &mut room.waiting) }
+        unsafe { reaches::<Avx2>(occluders, ways, around, full, &mut room.waiting) }
     }
 
     /// # Safety
@@ -135,20 +136,23 @@ pub(crate) fn add_seconds(level: Level, job: Job<'_>, room: &mut Room, seconds: 
     }
 }
 
-/// Whether any polygon may cover anything of the ways, seen from anywhere in a box.
+/// Whether any polygon may cover anything of the ways, seen from anywhere in a box, but for the arcs that are covered wholly.
 pub(crate) fn may_cover(
     level: Level,
     occluders: &Occluders,
     ways: &Ways,
     around: Aabb,
+    full: u64,
     room: &mut Room,
 ) -> bool {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: a level is one that this machine has, and with AVX-512 it has AVX2.
-        Level::Avx2 | Level::Avx512 => unsafe { x86::may_cover(occluders, ways, around, room) },
+        Level::Avx2 | Level::Avx512 => unsafe {
+            x86::may_cover(occluders, ways, around, full, room)
+        },
         // SAFETY: every processor has these.
-        _ => unsafe { reaches::<Portable>(occluders, ways, around, &mut room.waiting) },
+        _ => unsafe { reaches::<Portable>(occluders, ways, around, full, &mut room.waiting) },
     }
 }
 

@@ -98,7 +98,8 @@ pub(super) unsafe fn walk<N: Lanes, P: Lanes>(
     }
 }
 
-/// Whether the walk comes to any polygon, seen from anywhere in a box, while nothing is covered. Where it does not, none covers anything.
+/// Whether the walk comes to any polygon, seen from anywhere in a box, while these arcs of all ways are covered wholly. Where it does not, none
+/// covers anything of the others.
 ///
 /// # Safety
 /// - The processor has the instructions of `N`.
@@ -107,6 +108,7 @@ pub(super) unsafe fn reaches<N: Lanes>(
     occluders: &Occluders,
     ways: &Ways,
     around: Aabb,
+    full: u64,
     waiting: &mut Vec<Waiting>,
 ) -> bool {
     waiting.clear();
@@ -117,7 +119,7 @@ pub(super) unsafe fn reaches<N: Lanes>(
         let mut node = occluders.tree.root();
         let mut arcs = [0, ways.len() - 1];
         loop {
-            around.push(occluders, &nodes[node], arcs, ways, 0, waiting);
+            around.push(occluders, &nodes[node], arcs, ways, full, waiting);
             let Some(next) = waiting.pop() else {
                 return false;
             };
