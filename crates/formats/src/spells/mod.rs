@@ -9,7 +9,7 @@
 //! | `place` | whole number | which place: of a grid the cell, row by row from the north-west; else the row of the list of places |
 //! | `begin`, `end` | lists of timestamps | when each stretch begins and ends, in milliseconds, UTC |
 //! | `building` | list of whole numbers | the building that the ray toward the sun meets first: its place in the list `buildings` of the footer, −1 for other things that stand there, −2 for terrain |
-//! | `alone` | list of booleans | whether no other building stands behind it: without this one, the sun would shine |
+//! | `alone` | list of booleans | whether nothing else stands behind it: without this one, the sun would shine |
 //!
 //! The footer holds, as JSON under `ombra_spells`, what a reader needs besides: see [`SpellsAbout`].
 
