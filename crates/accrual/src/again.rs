@@ -104,8 +104,9 @@ impl Again {
     /// What holds after the change: `before` are all values by index, `measured` those of [`tiles`](Self::tiles). A place that lies in
     /// a building now has `nothing`.
     #[must_use]
-    pub fn after<T: Copy>(&self, before: &[T], measured: &[T], nothing: T) -> Vec<T> {
-        let mut after = before.to_vec();
+    pub fn after<T: Copy + Send + Sync>(&self, before: &[T], measured: &[T], nothing: T) -> Vec<T> {
+        // Of a large city these are hundreds of megabytes.
+        let mut after: Vec<T> = before.par_iter().copied().collect();
         for &index in &self.unsettled {
             after[index as usize] = nothing;
         }

@@ -41,7 +41,8 @@ impl SpellsFile {
                 .map_err(|source| FormatError::file(Fault::Io { action, source }))?;
             let chunks = Chunks::new(file)
                 .map_err(|source| FormatError::file(Fault::Io { action, source }))?;
-            let file = SerializedFileReader::new(chunks).map_err(broken)?;
+            let file = SerializedFileReader::new(chunks)
+                .map_err(|error| wrong(&format!("{error}; {WRITES}")))?;
             let about = about(&file)?;
             Ok((file, about))
         };
