@@ -20,7 +20,7 @@ use crate::ways::{TOGETHER, Ways};
 
 /// Tiles in whose sight the same is near are looked at together. Those are at most so many, in a box no longer than so many metres.
 pub(crate) const TILES: usize = 4;
-pub(crate) const NEAR: f32 = 16.0;
+const NEAR: f32 = 16.0;
 
 /// Measures the shadow of polygons at places, exactly in time.
 #[derive(Debug)]
@@ -51,10 +51,7 @@ impl<'a> Exact<'a> {
     /// If this machine does not have the level, see [`Level::available`].
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
-        assert!(
-            Level::available().contains(&level),
-            "this machine does not have {level:?}"
-        );
+        let level = checked(level);
         Self { level, ..self }
     }
 
@@ -184,6 +181,24 @@ fn add(sums: &mut [f64; PLACES], seconds: &[f64; PLACES]) {
     }
 }
 
+/// How many tiles at a time are looked at together: all that lie near one another, or each by itself.
+pub(crate) fn together(tiles: &[Tile]) -> usize {
+    if Tile::length(tiles) <= NEAR {
+        TILES
+    } else {
+        1
+    }
+}
+
+/// A level, if this machine has it.
+pub(crate) fn checked(level: Level) -> Level {
+    assert!(
+        Level::available().contains(&level),
+        "this machine does not have {level:?}"
+    );
+    level
+}
+
 /// By tile the seconds of its places.
 pub(crate) type Sums = ArrayVec<[f64; PLACES], TILES>;
 
@@ -198,13 +213,9 @@ pub(crate) fn by_tiles(
         .map_init(Room::new, |room, (part, lists)| {
             let first = part * TILES;
             let tiles: ArrayVec<Tile, TILES> = lists.iter().map(|list| Tile::new(list)).collect();
-            let sums: Sums = if Tile::length(&tiles) <= NEAR {
-                sum(first, &tiles, room)
-            } else {
-                let each = tiles.chunks(1).enumerate();
-                each.flat_map(|(k, tile)| sum(first + k, tile, room))
-                    .collect()
-            };
+            let count = together(&tiles);
+            let each = tiles.chunks(count).enumerate();
+            let sums = each.flat_map(|(k, tiles)| sum(first + k * count, tiles, room));
             let mut all = Vec::with_capacity(TILES * PLACES);
             for (places, sums) in lists.iter().zip(sums) {
                 all.extend_from_slice(&sums[..places.len()]);

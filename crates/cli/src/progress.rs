@@ -1,6 +1,6 @@
 //! Progress on a terminal: a bar with rays a second and the time left, and the picture above it.
 
-use std::io::{self, Write as _};
+use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -18,7 +18,8 @@ pub(crate) struct Display {
 }
 
 impl Display {
-    pub(crate) fn new(shown: bool) -> Self {
+    pub(crate) fn unless(quiet: bool) -> Self {
+        let shown = is_looked_at(quiet);
         let bar = bar(shown);
         let preview =
             shown && !bar.is_hidden() && console::colors_enabled_stderr() && true_colour();
@@ -68,8 +69,10 @@ pub(crate) struct Jobs {
 }
 
 impl Jobs {
-    pub(crate) fn new(shown: bool) -> Self {
-        Self { bar: bar(shown) }
+    pub(crate) fn unless(quiet: bool) -> Self {
+        Self {
+            bar: bar(is_looked_at(quiet)),
+        }
     }
 
     /// Shows how many jobs are done and what comes next.
@@ -83,6 +86,11 @@ impl Jobs {
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Only a terminal shows progress.
+fn is_looked_at(quiet: bool) -> bool {
+    !quiet && io::stderr().is_terminal()
 }
 
 fn bar(shown: bool) -> ProgressBar {

@@ -14,28 +14,21 @@ use crate::image::write_error;
 use crate::places::rounded;
 use crate::whole::write_whole_with;
 
-/// Writes a file beside its place and renames it when it is whole.
-pub(crate) fn write_columns(
-    path: impl AsRef<Path>,
-    encode: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), ParquetError>,
-) -> Result<(), FormatError> {
-    let path = path.as_ref();
-    let mut fault = None;
+/// Writes a file beside its place and renames it when it is whole; what `encode` fails with is the error then.
+pub(crate) fn write_columns<E: From<FormatError>>(
+    path: &Path,
+    encode: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut failed = None;
     let written = write_whole_with(path, |file| {
-        encode(file).map_err(|error| match error {
-            ParquetError::External(source) => match source.downcast::<std::io::Error>() {
-                Ok(source) => *source,
-                Err(source) => std::io::Error::other(source),
-            },
-            error => {
-                fault = Some(error.to_string());
-                std::io::Error::other(error)
-            }
+        encode(file).map_err(|error| {
+            failed = Some(error);
+            std::io::Error::other("not encoded")
         })
     });
-    match fault {
-        Some(message) => Err(wrong(&message).in_file(path)),
-        None => written,
+    match failed {
+        Some(error) => Err(error),
+        None => Ok(written?),
     }
 }
 

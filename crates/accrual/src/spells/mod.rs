@@ -15,7 +15,7 @@ use ombra_geometry::Point3;
 use ombra_sun::Sheet;
 use rayon::prelude::*;
 
-use crate::exact::{NEAR, TILES};
+use crate::exact::{TILES, checked, together};
 use crate::kernel::{FindRoom, Job, find_stretches};
 use crate::occluder::Occluders;
 use crate::tile::{PLACES, Tile, is_somewhere};
@@ -55,10 +55,7 @@ impl<'a> Spells<'a> {
     /// If this machine does not have the level, see [`Level::available`].
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
-        assert!(
-            Level::available().contains(&level),
-            "this machine does not have {level:?}"
-        );
+        let level = checked(level);
         Self { level, ..self }
     }
 
@@ -81,13 +78,9 @@ impl<'a> Spells<'a> {
             .map_init(Room::new, |room, lists| {
                 let tiles: ArrayVec<Tile, TILES> =
                     lists.iter().map(|list| Tile::new(list)).collect();
-                let together = if Tile::length(&tiles) <= NEAR {
-                    TILES
-                } else {
-                    1
-                };
                 let mut all = Stretches::default();
-                let parts = tiles.chunks(together).zip(lists.chunks(together));
+                let count = together(&tiles);
+                let parts = tiles.chunks(count).zip(lists.chunks(count));
                 for (tiles, lists) in parts {
                     self.some(tiles, lists, room, &mut all);
                 }

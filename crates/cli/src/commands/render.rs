@@ -1,7 +1,7 @@
 //! `ombra render`: from a scene to a picture.
 
 use std::borrow::Cow;
-use std::io::{self, IsTerminal as _, Write as _};
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -197,7 +197,7 @@ fn render(
         let talk = Talk { quiet: args.quiet };
         talk.say(&format!("{}: {notice}", args.scene));
     }
-    let display = Display::new(!args.quiet && io::stderr().is_terminal());
+    let display = Display::unless(args.quiet);
     let progress = |progress| display.update(progress);
     let mut pass = |film: &_| display.show(film);
     let watch = Watch {

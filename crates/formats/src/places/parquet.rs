@@ -15,7 +15,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
 
 use super::{PlaceRow, PlaceShare, angles};
-use crate::columns::{Bounds, Levels, column, point, write_columns};
+use crate::columns::{Bounds, Levels, column, point, write_columns, write_fault};
 use crate::error::FormatError;
 
 /// Rows that are written together; they are in memory at once.
@@ -61,7 +61,11 @@ pub fn write_places_parquet<'a>(
     rows: impl IntoIterator<Item = PlaceRow<'a>>,
     metadata: &[(String, String)],
 ) -> Result<(), FormatError> {
-    write_columns(path, |file| encode(file, rows.into_iter(), metadata))
+    let path = path.as_ref();
+    write_columns(path, |file| {
+        let encoded = encode(file, rows.into_iter(), metadata);
+        encoded.map_err(|error| write_fault(error).in_file(path))
+    })
 }
 
 fn encode<'a>(

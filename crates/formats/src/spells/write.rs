@@ -41,19 +41,12 @@ pub fn write_spells<E: From<FormatError>>(
     groups: impl FnOnce(&mut SpellsWriter<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
     let path = path.as_ref();
-    let mut failed = None;
-    let written = write_columns(path, |file| {
-        let mut writer = SpellsWriter::new(path, file)?;
-        if let Err(error) = groups(&mut writer) {
-            failed = Some(error);
-            return Err(ParquetError::General("a group was not written".to_owned()));
-        }
-        writer.close(about, metadata)
-    });
-    match failed {
-        Some(error) => Err(error),
-        None => Ok(written?),
-    }
+    let fault = |error| write_fault(error).in_file(path);
+    write_columns(path, |file| {
+        let mut writer = SpellsWriter::new(path, file).map_err(fault)?;
+        groups(&mut writer)?;
+        Ok(writer.close(about, metadata).map_err(fault)?)
+    })
 }
 
 impl<'a> SpellsWriter<'a> {

@@ -4,7 +4,7 @@ mod page;
 mod report;
 
 use std::fs;
-use std::io::{self, IsTerminal as _, Write as _};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
         talk.say(&format!("{}: {notice}", args.scene));
     }
     let folder = Folder::make(folder_of(args))?;
-    let display = Display::new(!args.quiet && io::stderr().is_terminal());
+    let display = Display::unless(args.quiet);
     let progress = |progress| display.update(progress);
     let watch = Watch {
         stop: Some(&stop),

@@ -181,11 +181,9 @@ pub(crate) enum OutputKind {
 impl OutputKind {
     /// Of a path that [`output`] took.
     pub(crate) fn of(path: &Path) -> Self {
-        let ending = path.extension().unwrap_or_default().to_string_lossy();
-        let ending = ending.to_ascii_lowercase();
-        if GEOJSON.contains(&&*ending) {
+        if has_ending(path, &GEOJSON) {
             Self::GeoJson
-        } else if PARQUET.contains(&&*ending) {
+        } else if has_ending(path, &PARQUET) {
             Self::Parquet
         } else {
             Self::GeoTiff
@@ -328,12 +326,17 @@ impl Method {
     }
 }
 
-pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
+/// Whether a file has one of these endings, in whatever case.
+pub(super) fn has_ending(path: &Path, endings: &[&str]) -> bool {
     let own = path
         .extension()
         .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    if own.is_some_and(|own| endings.contains(&own.as_str())) {
+    own.is_some_and(|own| endings.contains(&own.as_str()))
+}
+
+pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if has_ending(&path, endings) {
         Ok(path)
     } else {
         Err(format!(
@@ -343,13 +346,16 @@ pub(super) fn ends_in(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     }
 }
 
+/// The endings of maps as numbers.
+pub(super) const GEOTIFF: [&str; 2] = ["tif", "tiff"];
+
 /// The endings of files of places.
 pub(super) const GEOJSON: [&str; 2] = ["geojson", "json"];
 const PARQUET: [&str; 2] = ["parquet", "geoparquet"];
 
 /// What minutes of shadow are written to; a report has names of its own.
 pub(crate) fn output(text: &str) -> Result<PathBuf, String> {
-    ends_in(text, &[&["tif", "tiff"][..], &GEOJSON, &PARQUET].concat())
+    ends_in(text, &[&GEOTIFF[..], &GEOJSON, &PARQUET].concat())
 }
 
 pub(super) fn parquet(text: &str) -> Result<PathBuf, String> {

@@ -1,6 +1,5 @@
 //! The measuring itself, a part at a time, so that it shows how far it is and can be interrupted.
 
-use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -198,7 +197,7 @@ pub(super) fn in_parts(
     kept: &mut Option<(Partial, Vec<f32>)>,
     part: impl Fn(std::ops::Range<usize>) -> Vec<f64>,
 ) -> Measured {
-    let bar = Jobs::new(!args.quiet && io::stderr().is_terminal());
+    let bar = Jobs::unless(args.quiet);
     let total = tiles.places().len();
     // Each of the points that stand for the sun counts by its share.
     let each_minute = 60.0 * when.suns.len() as f64;

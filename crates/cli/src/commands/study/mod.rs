@@ -2,7 +2,7 @@
 
 mod args;
 
-use std::io::{self, IsTerminal as _, Write as _};
+use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &StudyArgs) -> anyhow::Result<ExitCode> {
     }
     let stop = interrupt::watch(args.quiet)?;
     let subjects = load(args, &settings, &talk)?;
-    let jobs = Jobs::new(!args.quiet && io::stderr().is_terminal());
+    let jobs = Jobs::unless(args.quiet);
     let progress = |progress: ombra_study::Progress<'_>| {
         jobs.update(progress.done, progress.total, progress.doing);
     };

@@ -1,6 +1,5 @@
 //! The shadows of a day, moment by moment.
 
-use std::io::{self, IsTerminal as _};
 use std::path::Path;
 use std::sync::atomic::Ordering;
 
@@ -75,7 +74,7 @@ pub(super) fn write(job: &Job<'_>, path: &Path, grid: &Grid) -> anyhow::Result<b
             },
         ))
     };
-    let bar = Jobs::new(!job.args.quiet && io::stderr().is_terminal());
+    let bar = Jobs::unless(job.args.quiet);
     let all: Vec<(usize, &Moment)> = moments.iter().enumerate().collect();
     for part in all.chunks(PICTURES) {
         let pictures = job.session.cpu.install(|| {
@@ -139,7 +138,7 @@ fn shadows(job: &Job<'_>, city: &City, moments: &[Moment]) -> Option<Shadows> {
     let words = moments.len().div_ceil(64);
     let places = tiles.places().len();
     let mut bits = Vec::with_capacity(places * words);
-    let bar = Jobs::new(!job.args.quiet && io::stderr().is_terminal());
+    let bar = Jobs::unless(job.args.quiet);
     for first in (0..tiles.len()).step_by(BLOCK) {
         bar.update(
             (bits.len() / words) as u64,

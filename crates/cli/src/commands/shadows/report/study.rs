@@ -1,7 +1,5 @@
 //! What is studied: a city before and after a change, days and hours by a rule, areas and their places.
 
-use std::io::{self, IsTerminal as _};
-
 use anyhow::bail;
 use ombra::accrual::{Again, Exact, Ground, Occluders, Tiles};
 use ombra::city::{Building, Change, City, Edited, Extent, Inside};
@@ -186,7 +184,7 @@ impl<'a> Study<'a> {
     /// A bar for so many places.
     pub(super) fn progress(&self, total: usize) -> Progress<'_> {
         Progress {
-            bar: Jobs::new(!self.args.quiet && io::stderr().is_terminal()),
+            bar: Jobs::unless(self.args.quiet),
             done: 0,
             total: total as u64,
             stop: &self.session.stop,

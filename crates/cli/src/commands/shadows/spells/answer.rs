@@ -12,6 +12,7 @@ use ombra::formats::write_whole;
 use ombra::sun::Instant;
 use serde_json::{Map, Value};
 
+use super::super::args::{GEOTIFF, has_ending};
 use super::super::clock::Clock;
 use super::buildings::Buildings;
 
@@ -35,14 +36,7 @@ pub(super) struct Answer<'a> {
 
 /// Whether it is a file of a map.
 pub(super) fn is_map(path: &Path) -> bool {
-    is(path, &["tif", "tiff"])
-}
-
-fn is(path: &Path, endings: &[&str]) -> bool {
-    let ending = path
-        .extension()
-        .map(|own| own.to_string_lossy().to_ascii_lowercase());
-    ending.is_some_and(|own| endings.contains(&own.as_str()))
+    has_ending(path, &GEOTIFF)
 }
 
 /// The columns beside where a place is.
@@ -59,7 +53,7 @@ impl Answer<'_> {
     pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
         if is_map(path) {
             self.map(path)
-        } else if is(path, &["csv"]) {
+        } else if has_ending(path, &["csv"]) {
             self.table(path)
         } else {
             self.features(path)

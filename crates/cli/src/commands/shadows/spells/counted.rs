@@ -82,32 +82,13 @@ pub(super) fn weighed(
 
 /// The parts of a stretch of time within others, by a weight more, and without.
 fn split(counted: &Counted, within: &[Span], weight: f64) -> Vec<Counted> {
-    let Span { start, end } = counted.span;
-    let mut parts = Vec::new();
-    let mut at = start;
-    let first = within.partition_point(|other| other.end <= start);
-    for other in within[first..].iter().take_while(|other| other.start < end) {
-        let (from, to) = (other.start.max(at), other.end.min(end));
-        if at < from {
-            parts.push(Counted {
-                span: Span::new(at, from),
-                ..*counted
-            });
-        }
-        if from < to {
-            parts.push(Counted {
-                span: Span::new(from, to),
-                weight: counted.weight * weight,
-            });
-            at = to;
-        }
-    }
-    if at < end {
-        parts.push(Counted {
-            span: Span::new(at, end),
-            ..*counted
-        });
-    }
+    let own = [counted.span];
+    let part = |weight| move |span| Counted { span, weight };
+    let inside = Span::intersection(&own, within).into_iter();
+    let outside = Span::difference(&own, within).into_iter();
+    let inside = inside.map(part(counted.weight * weight));
+    let mut parts: Vec<Counted> = inside.chain(outside.map(part(counted.weight))).collect();
+    parts.sort_by_key(|part| part.span.start);
     parts
 }
 

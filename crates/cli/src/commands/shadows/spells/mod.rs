@@ -5,7 +5,6 @@ mod buildings;
 mod counted;
 pub(super) mod query;
 
-use std::io::{self, IsTerminal as _};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -232,7 +231,7 @@ impl Run<'_> {
         &mut self,
         write: &mut dyn FnMut(&SpellsGroup) -> Result<(), FormatError>,
     ) -> Result<(), FormatError> {
-        let bar = Jobs::new(!self.args.quiet && io::stderr().is_terminal());
+        let bar = Jobs::unless(self.args.quiet);
         let tiles = &self.places.tiles;
         let (stop, total) = (&self.session.stop, tiles.places().len());
         let mut group = Stretches::default();

@@ -4,7 +4,7 @@ use ombra::sun::Hours;
 use serde_json::Value;
 
 use super::boxes::{Block, Town, instant, instants, is_dark, number, origin, places, sky};
-use super::report;
+use super::{CEQR, report};
 
 const NEW_YORK: Town = Town {
     latitude: 40.75,
@@ -132,20 +132,7 @@ fn at_the_equinox_a_shadow_reaches_as_far_as_the_latitude_says() {
         ("beyond", [-60.0, 87.5, 60.0, 95.0]),
     ];
     NEW_YORK.write_areas(folder, "strips.geojson", &strips);
-    let told = report(
-        folder,
-        &[
-            "city.geojson",
-            "--report",
-            "ceqr",
-            "--date",
-            "2026-03-21",
-            "--with",
-            "tower.geojson",
-            "--resources",
-            "strips.geojson",
-        ],
-    );
+    let told = report(folder, &[&CEQR[..], &["strips.geojson"]].concat());
     let rows = told["rows"].as_array().unwrap();
     assert_eq!(
         (&rows[0]["result"], &rows[1]["result"]),
